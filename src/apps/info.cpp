@@ -1,0 +1,75 @@
+// chiaro info: what was read.
+
+#include "apps/commands.h"
+#include "apps/open_scene.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace chiaro {
+namespace {
+
+template <typename T>
+nlohmann::ordered_json names_of(const std::vector<T>& things) {
+    auto names = nlohmann::ordered_json::array();
+    for (const T& thing : things) names.push_back(thing.name);
+    return names;
+}
+
+nlohmann::ordered_json describe(const Scene& scene) {
+    std::size_t quads = 0, triangles = 0, emitters = 0;
+    for (const Object& object : scene.objects) {
+        const Mesh& mesh = scene.mesh_of(object);
+        quads += mesh.quad_count;
+        triangles += mesh.primitives.size() - mesh.quad_count;
+        for (const Primitive& p : mesh.primitives)
+            emitters += scene.material(p.material).emissive() ? 1 : 0;
+    }
+    const Box box = bounds(scene);
+    nlohmann::ordered_json j;
+    j["primitives"] = quads + triangles;
+    j["quads"] = quads;
+    j["triangles"] = triangles;
+    j["bezier_patches"] = 0;
+    j["emissive_primitives"] = emitters;
+    if (!box.empty()) {
+        j["bounds"] = {{box.low.x, box.low.y, box.low.z}, {box.high.x, box.high.y, box.high.z}};
+    } else {
+        j["bounds"] = nullptr;
+    }
+    j["objects"] = names_of(scene.objects);
+    j["lights"] = names_of(scene.lights);
+    j["materials"] = names_of(scene.materials);
+    j["textures"] = names_of(scene.textures);
+    j["cameras"] = names_of(scene.cameras);
+    j["warnings"] = scene.warnings;
+    return j;
+}
+
+void print_list(const nlohmann::ordered_json& j, const char* what) {
+    constexpr std::size_t kMost = 20;
+    std::printf("%-10s %zu", what, j[what].size());
+    for (std::size_t i = 0; i < j[what].size() && i < kMost; ++i)
+        std::printf("%s%s", i == 0 ? ": " : ", ", j[what][i].get<std::string>().c_str());
+    std::printf("%s\n", j[what].size() > kMost ? ", ..." : "");
+}
+
+}  // namespace
+
+int info_command(const Options& options) {
+    const nlohmann::ordered_json j = describe(open_scene(options));
+    if (options.json) {
+        // Names come from files: whatever is no UTF-8 in them is replaced, not an error.
+        std::printf("%s\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+        return 0;
+    }
+    std::printf("primitives %zu: %zu quads, %zu triangles; %zu emit\n",
+                j["primitives"].get<std::size_t>(), j["quads"].get<std::size_t>(),
+                j["triangles"].get<std::size_t>(), j["emissive_primitives"].get<std::size_t>());
+    if (!j["bounds"].is_null()) std::printf("bounds     %s\n", j["bounds"].dump().c_str());
+    for (const char* list : {"objects", "lights", "materials", "textures", "cameras"})
+        print_list(j, list);
+    return 0;
+}
+
+}  // namespace chiaro

@@ -1,0 +1,90 @@
+#include "apps/open_scene.h"
+
+#include "base/error.h"
+#include "import/load_scene.h"
+#include "scene/built_in.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace chiaro {
+namespace {
+
+constexpr std::string_view kBuiltIn = "builtin:";
+
+std::string join(const std::vector<std::string>& words) {
+    std::string list;
+    for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+    return list;
+}
+
+const Camera& named_camera(const Scene& scene, const std::string& name) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        if (scene.cameras[i].name == name || std::to_string(i) == name) return scene.cameras[i];
+        names.push_back(scene.cameras[i].name);
+    }
+    throw Error("--camera", "the scene has no camera '" + name + "'",
+                names.empty() ? "it has none: use --eye and --target" : "it has " + join(names));
+}
+
+}  // namespace
+
+Scene open_scene(const Options& options) {
+    if (!(options.scale > 0) || !std::isfinite(options.scale))
+        throw Error("--scale", "it must be a finite number above 0");
+    Scene scene;
+    if (options.scene.starts_with(kBuiltIn)) {
+        auto built_in = built_in_scene(options.scene.substr(kBuiltIn.size()));
+        if (!built_in)
+            throw Error(options.scene, "there is no such built-in scene",
+                        "there are " + join(built_in_names()));
+        scene = std::move(*built_in);
+    } else {
+        LoadOptions load;
+        load.scale = options.scale;
+        if (!options.up.empty()) load.up = parse_vector("--up", options.up);
+        scene = load_scene(options.scene, load);
+    }
+    for (const std::string& warning : scene.warnings)
+        std::fprintf(stderr, "chiaro: warning: %s\n", warning.c_str());
+    return scene;
+}
+
+Camera choose_camera(const Scene& scene, const Options& options) {
+    Camera camera;
+    if (!options.camera.empty()) {
+        camera = named_camera(scene, options.camera);
+    } else if (!scene.cameras.empty()) {
+        camera = scene.cameras.front();
+    } else {
+        camera = frame_from_inside(bounds(scene), scene.up);
+    }
+    if (!options.eye.empty()) camera.eye = parse_vector("--eye", options.eye);
+    if (!options.target.empty()) camera.target = parse_vector("--target", options.target);
+    if (!options.up.empty()) camera.up = parse_vector("--up", options.up);
+    else if (!options.eye.empty()) camera.up = scene.up;
+    if (options.vertical_fov) camera.vertical_fov = *options.vertical_fov;
+
+    if (!(camera.vertical_fov > 0 && camera.vertical_fov < 180))
+        throw Error("--vfov", "the field of view must lie between 0 and 180 degrees");
+    const Vec3 forward = camera.target - camera.eye;
+    if (!(glm::length(forward) > 0)) throw Error("--target", "it is where the eye is", "move one of them");
+    if (!(glm::length(glm::cross(forward, camera.up)) > 1e-6f * glm::length(forward)))
+        throw Error("--up", "it points along the line of sight", "give another vertical");
+    return camera;
+}
+
+void add_headlamp_if_dark(Scene& scene, const Camera& camera) {
+    if (has_light(scene)) return;
+    std::fprintf(stderr, "chiaro: warning: the scene has no light: a lamp at the eye lights it\n");
+    PunctualLight lamp;
+    lamp.name = "headlamp";
+    lamp.kind = LightKind::point;
+    lamp.position = camera.eye;
+    const float size = std::max(bounds(scene).diagonal(), 1e-3f);
+    lamp.intensity = Rgb(100 * size * size);  // 100 lux or more on all that it sees
+    scene.lights.push_back(lamp);
+}
+
+}  // namespace chiaro

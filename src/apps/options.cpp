@@ -1,0 +1,112 @@
+#include "apps/options.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace chiaro {
+namespace {
+
+constexpr int kLargestSide = 16384;
+
+// The number that all of `text` is, if it is one.
+template <typename T>
+std::optional<T> parse_number(std::string_view text) {
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+PictureSize parse_size(const std::string& text) {
+    const auto x = text.find('x');
+    if (x != std::string::npos) {
+        const auto width = parse_number<int>(std::string_view(text).substr(0, x));
+        const auto height = parse_number<int>(std::string_view(text).substr(x + 1));
+        if (width && height && *width > 0 && *height > 0 && *width <= kLargestSide &&
+            *height <= kLargestSide)
+            return {*width, *height};
+    }
+    throw Error("--size", "'" + text + "' is no picture size",
+                "give width x height from 1x1 to 16384x16384, as 800x600");
+}
+
+Vec3 parse_vector(const std::string& option, const std::string& text) {
+    Vec3 v(0);
+    std::string_view rest = text;
+    for (int i = 0; i < 3; ++i) {
+        const auto comma = i < 2 ? rest.find(',') : rest.size();
+        const auto number = comma == std::string_view::npos
+                                ? std::nullopt
+                                : parse_number<float>(rest.substr(0, comma));
+        if (!number || !std::isfinite(*number))
+            throw Error(option, "'" + text + "' is not three numbers", "give x,y,z, as 0,1.6,4");
+        v[i] = *number;
+        rest = rest.substr(std::min(comma + 1, rest.size()));
+    }
+    return v;
+}
+
+Scheme parse_scheme(const std::string& text) {
+    if (text == "best") return Scheme::best;
+    if (text == "paper") return Scheme::paper;
+    throw Error("--scheme", "there is no scheme '" + text + "'", "choose best or paper");
+}
+
+Aov parse_aov(const std::string& text) {
+    if (text == "radiance") return Aov::radiance;
+    if (text == "irradiance") return Aov::irradiance;
+    throw Error("--aov", "there is no '" + text + "'", "choose radiance or irradiance");
+}
+
+void check_renderer(const std::string& text) {
+    if (text == "path") return;
+    for (const char* later : {"bidirectional", "caustic", "gather"})
+        if (text == later) throw Error("--renderer", text + " comes in a later version", "use path");
+    throw Error("--renderer", "there is no renderer '" + text + "'", "use path");
+}
+
+std::uint32_t sample_count(const char* option, std::optional<int> value, std::uint32_t otherwise) {
+    if (!value) return otherwise;
+    if (*value < 1 || *value > 1 << 24)
+        throw Error(option, std::to_string(*value) + " is no number of samples",
+                    "give 1 to 16777216");
+    // Replicates of the sequence are of equal length.
+    return (static_cast<std::uint32_t>(*value) + kReplicates - 1) / kReplicates * kReplicates;
+}
+
+int thread_count(const Options& options) {
+    if (options.threads < 0 || options.threads > 1024)
+        throw Error("--threads", std::to_string(options.threads) + " is no number of threads",
+                    "give 1 to 1024");
+    return options.threads > 0 ? options.threads : hardware_threads();
+}
+
+void add_scene_options(CLI::App& command, Options& o) {
+    command.add_option("SCENE", o.scene, "a .gltf, .glb or .obj file, or builtin:room, builtin:cornell")
+        ->required();
+    command.add_option("--up", o.up, "the vertical of a file that is not y-up, as 0,0,1");
+    command.add_option("--scale", o.scale, "multiplies all lengths of the file");
+}
+
+void add_view_options(CLI::App& command, Options& o) {
+    command.add_option("--size", o.size, "picture size in pixels")->capture_default_str();
+    command.add_option("--camera", o.camera, "a camera of the scene, by name or by number from 0");
+    command.add_option("--eye", o.eye, "look from here, x,y,z");
+    command.add_option("--target", o.target, "look toward here, x,y,z");
+    command.add_option("--vfov", o.vertical_fov, "vertical field of view in degrees");
+    command.add_option("--exposure", o.exposure,
+                       "for .png: radiance is multiplied by 2^EV (default: by the median)");
+}
+
+void add_render_options(CLI::App& command, Options& o) {
+    command.add_option("--renderer", o.renderer, "sample renderer")->capture_default_str();
+    command.add_option("--threads", o.threads, "threads to use (default: all)");
+    command.add_option("--seed", o.seed, "of all random numbers")->capture_default_str();
+}
+
+}  // namespace chiaro

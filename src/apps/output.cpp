@@ -1,0 +1,86 @@
+#include "apps/output.h"
+
+#include "base/error.h"
+#include "base/tone_map.h"
+#include "import/image_file.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace chiaro {
+
+void check_outputs(const Options& options) {
+    check_writable(options.output);
+    if (options.statistics.empty()) return;
+    const std::filesystem::path file = options.statistics;
+    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    if (std::filesystem::is_directory(file) || access(folder.c_str(), W_OK) != 0 ||
+        (std::filesystem::exists(file) && access(file.c_str(), W_OK) != 0))
+        throw Error(options.statistics, "cannot be written", "name a file in a folder of yours");
+}
+
+void save_picture(const Options& options, const Image& picture) {
+    std::string ending = std::filesystem::path(options.output).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (ending == ".exr") {
+        write_exr(options.output, picture);
+        return;
+    }
+    const float exposure = options.exposure ? std::exp2(*options.exposure) : comparison_exposure(picture);
+    write_png(options.output, tone_mapped(picture, exposure));
+}
+
+std::string statistics_json(const UpdateCycle& cycle, const RunFigures& figures) {
+    const Statistics& s = cycle.statistics();
+    const double patches = static_cast<double>(std::max<std::size_t>(cycle.cache().patches().size(), 1));
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+
+    nlohmann::ordered_json j;
+    j["cycles"] = s.cycles;
+    j["points_shaded"] = s.points_shaded;
+    j["points_per_second"] = figures.seconds > 0 ? static_cast<double>(s.points_shaded) / figures.seconds : 0;
+    j["patches"] = cycle.cache().patches().size();
+    j["vertices"] = cycle.cache().vertices().size();
+    j["bytes_per_patch"] = static_cast<double>(cycle.bytes()) / patches;
+    j["peak_rss_bytes"] = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+    j["first_picture_seconds"] = figures.first_picture_seconds;
+    const double cycles = static_cast<double>(std::max<std::size_t>(s.cycles, 1));
+    for (std::size_t i = 0; i < kSteps; ++i)
+        j["cycle_ms"][kStepNames[i]] = 1e3 * s.timings.seconds[i] / cycles;
+    j["cycle_ms"]["total"] = 1e3 * s.timings.total() / cycles;
+    return j.dump(2) + "\n";
+}
+
+void save_text(const std::string& file, const std::string& text) {
+    std::ofstream out(file, std::ios::binary);
+    out << text;
+    if (!out.flush()) throw Error(file, "cannot be written");
+}
+
+ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void ProgressBar::show(double part, const std::string& note) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!terminal_ || (drawn_ && now - last_ < std::chrono::milliseconds(100))) return;
+    constexpr int kWidth = 30;
+    const int full = static_cast<int>(std::clamp(part, 0.0, 1.0) * kWidth);
+    const std::string bar = std::string(full, '#') + std::string(kWidth - full, '.');
+    std::fprintf(stderr, "\r[%s] %3.0f%%  %s\033[K", bar.c_str(), 100 * std::clamp(part, 0.0, 1.0),
+                 note.c_str());
+    std::fflush(stderr);
+    last_ = now;
+    drawn_ = true;
+}
+
+ProgressBar::~ProgressBar() {
+    if (drawn_) std::fprintf(stderr, "\r\033[K");
+}
+
+}  // namespace chiaro

@@ -1,0 +1,42 @@
+// Pictures, figures and progress out.
+#pragma once
+
+#include "apps/options.h"
+#include "base/image.h"
+#include "update/update_cycle.h"
+
+#include <chrono>
+
+namespace chiaro {
+
+/// Throws the Error that writing the options' outputs would end in, before any work is done.
+void check_outputs(const Options& options);
+
+/// Writes a linear picture: .exr as it is, .png through the tone map.
+void save_picture(const Options& options, const Image& picture);
+
+/// The figures of a run as `--stats` writes them.
+struct RunFigures {
+    double seconds = 0;  // of wall time after loading
+    double first_picture_seconds = 0;
+};
+std::string statistics_json(const UpdateCycle& cycle, const RunFigures& figures);
+void save_text(const std::string& file, const std::string& text);
+
+/// A line on a terminal that shows how far the work is; silent where standard error is none.
+class ProgressBar {
+public:
+    ProgressBar();
+    /// `part` in [0, 1]. Redraws at most ten times a second.
+    void show(double part, const std::string& note);
+    ~ProgressBar();
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+
+private:
+    bool terminal_;
+    bool drawn_ = false;
+    std::chrono::steady_clock::time_point last_;
+};
+
+}  // namespace chiaro

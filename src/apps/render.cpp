@@ -1,0 +1,90 @@
+// chiaro render: the Shading Cache without a window.
+
+#include "apps/commands.h"
+#include "apps/open_scene.h"
+#include "apps/output.h"
+#include "base/error.h"
+#include "sample_renderer/path_renderer.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+namespace chiaro {
+namespace {
+
+constexpr double kDefaultSeconds = 10;
+
+UpdateSettings update_settings(const Options& options) {
+    UpdateSettings s;
+    s.scheme = parse_scheme(options.scheme);
+    s.threads = thread_count(options);
+    s.seed = options.seed;
+    s.aov = parse_aov(options.aov);
+    s.direct_samples = sample_count("--direct-samples", options.direct_samples, 100);
+    s.indirect_samples = sample_count("--indirect-samples", options.indirect_samples, 400);
+    s.fixed_size = options.samples.has_value();
+    return s;
+}
+
+void check_budget(const Options& options) {
+    if (options.time && !(*options.time >= 0 && std::isfinite(*options.time)))
+        throw Error("--time", "it must be a number of seconds, 0 or more");
+}
+
+// Cycles until the budget is spent or the user has seen enough.
+RunFigures run_cycles(UpdateCycle& cycle, const Options& options) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    const double seconds = options.time.value_or(options.samples ? INFINITY : kDefaultSeconds);
+
+    ProgressBar bar;
+    RunFigures figures;
+    std::size_t idle_cycles = 0;
+    do {
+        const std::size_t before = cycle.statistics().points_shaded;
+        cycle.run();
+        if (cycle.statistics().cycles == 1) figures.first_picture_seconds = elapsed();
+        const std::size_t points = cycle.statistics().points_shaded;
+        double part = std::isfinite(seconds) && seconds > 0 ? elapsed() / seconds : 0;
+        if (options.samples)
+            part = std::max(part, static_cast<double>(points) / static_cast<double>(*options.samples));
+        bar.show(part, std::to_string(points) + " points, " +
+                           std::to_string(cycle.cache().patches().size()) + " patches");
+        // Nothing in view needs shading: more cycles would change nothing.
+        idle_cycles = points == before ? idle_cycles + 1 : 0;
+        if (idle_cycles == 8 && options.samples) break;
+    } while (!interrupted() && elapsed() < seconds &&
+             (!options.samples || cycle.statistics().points_shaded < *options.samples));
+    figures.seconds = elapsed();
+    return figures;
+}
+
+}  // namespace
+
+int render_command(const Options& options) {
+    check_outputs(options);
+    check_renderer(options.renderer);
+    check_budget(options);
+    const UpdateSettings settings = update_settings(options);
+    const PictureSize size = parse_size(options.size);
+    Scene scene = open_scene(options);
+    const Camera camera = choose_camera(scene, options);
+    add_headlamp_if_dark(scene, camera);
+
+    const RayCaster rays(scene, settings.threads);
+    const AreaLights area_lights(scene);
+    OpenSides open_sides(scene);
+    PathRenderer renderer(scene, rays, area_lights, &open_sides, settings.threads);
+    UpdateCycle cycle(rays, renderer, open_sides, settings);
+    cycle.look_from(View(camera, size.width, size.height));
+
+    catch_interrupts();
+    const RunFigures figures = run_cycles(cycle, options);
+    save_picture(options, cycle.picture());
+    if (!options.statistics.empty()) save_text(options.statistics, statistics_json(cycle, figures));
+    return 0;
+}
+
+}  // namespace chiaro

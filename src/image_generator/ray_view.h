@@ -1,0 +1,40 @@
+// BOX Image Generator, by rays: the ID map and the picture, for headless use and for machines where
+// rays draw faster than their OpenGL.
+#pragma once
+
+#include "base/image.h"
+#include "rays/ray_caster.h"
+#include "scene/camera.h"
+#include "scene/open_sides.h"
+#include "shading_cache/id_map.h"
+
+namespace chiaro {
+
+/// What a picture's pixels hold.
+enum class Aov {
+    radiance,    // [cd/m2 a channel]
+    irradiance,  // [lux a channel] on the surfaces in view, emission and reflectance left out
+};
+
+/// How finely outlines and textures are looked at.
+enum class ViewQuality {
+    one_ray,       // a ray through each pixel's centre: for a view that is moving
+    antialiased,   // and 16 through each pixel with an outline or a texture
+};
+
+struct RayViewSettings {
+    ViewQuality quality = ViewQuality::antialiased;
+    Aov aov = Aov::radiance;
+    int threads = 1;
+};
+
+/// The fragments that `view` shows, each on the root patch that holds it (made if new); attach() hands
+/// them down to the leaves. Single-sided faces are passed from behind; blended surfaces are composited
+/// front to back. Marks in `open_sides` what was seen, unless it is null.
+IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
+                  const RayViewSettings& settings, OpenSides* open_sides);
+
+/// The picture of an attached map: interpolated irradiance times reflectance, over the background.
+Image draw(const ShadingCache& cache, const IdMap& map, int threads);
+
+}  // namespace chiaro

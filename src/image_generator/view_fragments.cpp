@@ -1,0 +1,145 @@
+#include "image_generator/view_fragments.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace chiaro {
+namespace {
+
+// A ray on its way through surfaces that let the camera look on: what part of the pixel it still is.
+struct Looking {
+    Ray ray;
+    std::uint32_t x = 0;
+    std::uint32_t first = 0;  // which of the given rays it was
+    float part = 1;
+};
+
+constexpr int kMostLayers = 32;
+
+// Follows rays until they are stopped, and tells `see(looking, hit, part)` of each surface that shows;
+// `part` is what of the pixel it takes.
+template <typename See>
+void look(const RayCaster& rays, std::vector<Looking> looking, const See& see) {
+    const Scene& scene = rays.scene();
+    std::vector<Ray> now;
+    std::vector<Hit> hits;
+    for (int layer = 0; layer < kMostLayers && !looking.empty(); ++layer) {
+        now.clear();
+        for (const Looking& l : looking) now.push_back(l.ray);
+        hits.resize(now.size());
+        rays.intersect_coherent(now, hits, RayKind::layers);
+
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < looking.size(); ++i) {
+            if (!hits[i]) continue;
+            Looking on = looking[i];
+            const SurfaceGeometry at = surface_geometry(scene, hits[i].point);
+            float part = 0;
+            if (hits[i].front || at.material->double_sided) {
+                const bool blended = at.material->alpha_mode == AlphaMode::blend;
+                part = on.part * (blended ? base_color(scene, hits[i].point).a : 1.0f);
+                if (part > 0) see(on, hits[i], at, part);
+            }
+            on.part -= part;
+            if (on.part < 1.0f / 512) continue;
+            on.ray.t_min = hits[i].t * (1 + 4e-7f) + RayCaster::offset(at.position);
+            looking[kept++] = on;
+        }
+        looking.resize(kept);
+    }
+}
+
+Rgb seen_reflectance(const Scene& scene, const Hit& hit, Aov aov, float part) {
+    if (aov == Aov::irradiance) return Rgb(part);
+    return Rgb(base_color(scene, hit.point)) * (part / kPi);
+}
+
+// Pieces of one pixel that lie on the same side of the same primitive become one, at their mean place.
+void add_piece(std::vector<SeenPiece>& pieces, std::vector<float>& weights, std::size_t first,
+               const SeenPiece& piece, float part) {
+    for (std::size_t i = first; i < pieces.size(); ++i) {
+        SeenPiece& known = pieces[i];
+        if (known.point.object != piece.point.object ||
+            known.point.primitive != piece.point.primitive || known.front != piece.front)
+            continue;
+        float& weight = weights[i - first];
+        const float share = part / (weight + part);
+        known.point.u += share * (piece.point.u - known.point.u);
+        known.point.v += share * (piece.point.v - known.point.v);
+        known.reflectance += piece.reflectance;
+        weight += part;
+        return;
+    }
+    pieces.push_back(piece);
+    weights.push_back(part);
+}
+
+}  // namespace
+
+SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
+                std::vector<CentreHit>& centres) {
+    const Scene& scene = rays.scene();
+    SeenRow row;
+    row.background.assign(view.width(), Rgb(0));
+    centres.assign(view.width(), CentreHit{});
+    std::vector<Looking> looking(view.width());
+    for (int x = 0; x < view.width(); ++x)
+        looking[x] = {view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f),
+                      static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(x), 1};
+
+    look(rays, std::move(looking),
+         [&](const Looking& l, const Hit& hit, const SurfaceGeometry& at, float part) {
+             row.pieces.push_back(
+                 {l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)});
+             const Material& m = *at.material;
+             if (aov == Aov::radiance && m.emissive())
+                 row.background[l.x] += part * emission(scene, hit.point, hit.front);
+             CentreHit& centre = centres[l.x];
+             if (centre.object != ObjectId::none) return;
+             centre = {hit.point.object, at.primitive->material, at.geometric_normal, at.position,
+                       hit.t, m.base_color_texture.used() || m.emissive() || m.see_through()};
+         });
+    // Layers were seen one after the other; a pixel's pieces belong together.
+    std::stable_sort(row.pieces.begin(), row.pieces.end(),
+                     [](const SeenPiece& a, const SeenPiece& b) { return a.x < b.x; });
+    return row;
+}
+
+void see_pixel(const RayCaster& rays, const View& view, int x, int y, Aov aov, SeenRow& row) {
+    constexpr int kSide = 4;
+    constexpr float kPart = 1.0f / (kSide * kSide);
+    // A rotated grid: 16 different heights and widths, so that edges near the axes are smooth too.
+    std::vector<Looking> looking(kSide * kSide);
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const int a = i % kSide, b = i / kSide;
+        const float sx = (static_cast<float>(a) + (static_cast<float>(b) + 0.5f) / kSide) / kSide;
+        const float sy = (static_cast<float>(b) + (static_cast<float>(a) + 0.5f) / kSide) / kSide;
+        looking[i] = {view.ray(static_cast<float>(x) + sx, static_cast<float>(y) + sy),
+                      static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(i), kPart};
+    }
+    const Scene& scene = rays.scene();
+    const std::size_t first = row.pieces.size();
+    std::vector<float> weights;
+    Rgb background(0);
+    look(rays, std::move(looking),
+         [&](const Looking& l, const Hit& hit, const SurfaceGeometry& at, float part) {
+             add_piece(row.pieces, weights, first,
+                       {l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)}, part);
+             if (aov == Aov::radiance && at.material->emissive())
+                 background += part * emission(scene, hit.point, hit.front);
+         });
+    row.background[x] = background;
+}
+
+bool outline_between(const CentreHit& a, const CentreHit& b, float footprint) {
+    if (a.object != b.object || a.material != b.material) return true;
+    if (a.object == ObjectId::none) return false;
+    if (glm::dot(a.normal, b.normal) < 0.98f) return true;
+    // One surface, or two behind each other? The second point lies in the first's plane, or nearly.
+    const float reach = 2 * footprint * std::max(a.distance, b.distance);
+    const Vec3 between = b.position - a.position;
+    return std::abs(glm::dot(between, a.normal)) > reach + 0.25f * glm::length(between);
+}
+
+}  // namespace chiaro

@@ -1,0 +1,44 @@
+// What rays through one row of pixels see, before it is put on patches.
+#pragma once
+
+#include "image_generator/ray_view.h"
+
+#include <vector>
+
+namespace chiaro {
+
+/// A piece of one side of one primitive in one pixel.
+struct SeenPiece {
+    std::uint32_t x = 0;          // pixel in the row
+    SurfacePoint point;           // mean place of the rays that met it
+    bool front = true;
+    Rgb reflectance = Rgb(0);     // as Fragment::reflectance
+};
+
+/// What the ray through a pixel's centre met first, to find outlines by.
+struct CentreHit {
+    ObjectId object = ObjectId::none;
+    MaterialId material = MaterialId::none;
+    Vec3 normal = Vec3(0);
+    Vec3 position = Vec3(0);
+    float distance = 0;
+    bool detailed = false;  // textured, emissive or seen through: one ray is not enough
+};
+
+struct SeenRow {
+    std::vector<SeenPiece> pieces;  // in order of x
+    std::vector<Rgb> background;    // a pixel: radiance that needs no shading
+};
+
+/// One ray through the centre of each pixel of row `y`; `centres` gets one entry a pixel.
+SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
+                std::vector<CentreHit>& centres);
+
+/// 16 rays through pixel (x, y), replacing what the centre's ray saw: appends to `row.pieces` and sets
+/// row.background[x].
+void see_pixel(const RayCaster& rays, const View& view, int x, int y, Aov aov, SeenRow& row);
+
+/// Whether an outline runs between two pixels, `footprint` being a pixel's size in radians.
+bool outline_between(const CentreHit& a, const CentreHit& b, float footprint);
+
+}  // namespace chiaro

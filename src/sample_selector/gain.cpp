@@ -1,0 +1,118 @@
+#include "sample_selector/gain.h"
+
+#include "base/tone_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chiaro {
+namespace {
+
+// From the surplus of a patch's corners to that expected at its midpoints: a half lies between a
+// kink (1) and a smooth function (1/4). The range counts for less: a gradient is no error.
+constexpr float kSurplusNext = 0.5f;
+constexpr float kRangeNext = 0.14f;
+
+// A patch whose corners are partly buried holds a contact line, whose shading no corner shows.
+constexpr float kContact = 0.25f;
+
+// Error on the curve's scale of a patch of which next to nothing is known, its corners being buried.
+constexpr float kUnseen = 0.2f;
+
+// New vertices a division makes on average, neighbours sharing the midpoints.
+constexpr float kNewInFour = 3;
+constexpr float kNewAcross = 1.5f;
+
+// Samples a vertex may take in all; its variance is then far below what a display resolves.
+constexpr std::uint32_t kMostOfNew = 4096;
+constexpr std::uint32_t kMostSamples = 1u << 18;
+
+// What the corners say together.
+struct Corners {
+    float light = 0;         // mean luminance of all channels
+    float low = kInfinity;   // range of the channel
+    float high = -kInfinity;
+    float surplus2 = 0;      // mean squared surplus of the channel
+    float variance = 0;      // mean variance of the channel
+    int buried = 0;
+    int count = 0;
+};
+
+Corners survey(const ShadingCache& cache, const Patch& patch, int channel) {
+    Corners c;
+    c.count = patch.corner_count();
+    c.buried = cache.buried_corners(patch);
+    const float part = 1.0f / static_cast<float>(c.count);
+    for (int i = 0; i < c.count; ++i) {
+        const VertexId v = patch.corners[i];
+        c.light += part * luminance(cache.shown_total(v).irradiance);
+        const float value = luminance(cache.shown(v, channel).irradiance);
+        c.low = std::min(c.low, value);
+        c.high = std::max(c.high, value);
+        if (const Estimate* e = cache.estimate(v, channel); e && !cache.vertex(v).buried) {
+            const float surplus = cache.surplus(v, *e);
+            c.surplus2 += part * surplus * surplus;
+            c.variance += part * e->variance;
+        }
+    }
+    return c;
+}
+
+}  // namespace
+
+bool on_front(const ShadingCache& cache, PatchId id, int channel) {
+    const Patch& patch = cache.patch(id);
+    if (patch.refined(channel)) return false;
+    return patch.is_root() || cache.patch(static_cast<PatchId>(patch.parent)).refined(channel);
+}
+
+std::uint32_t samples_of_new(const ShadingCache& cache, PatchId id, int channel,
+                             const GainSettings& settings) {
+    const Patch& patch = cache.patch(id);
+    std::uint32_t fewest = kMostOfNew;
+    for (int i = 0; i < patch.corner_count(); ++i)
+        if (const Estimate* e = cache.estimate(patch.corners[i], channel))
+            fewest = std::min(fewest, e->samples);
+    return std::max(fewest, settings.first_samples[channel]);
+}
+
+Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings& settings) {
+    const Patch& patch = cache.patch(id);
+    const auto fragments = static_cast<float>(patch.fragment_count);
+    if (patch.fragment_count == 0) return {};
+    const Corners corners = survey(cache, patch, channel);
+
+    // Irradiance to the scale on which errors are seen, linearised at the patch's mean.
+    const float to_radiance =
+        settings.exposure * std::max<float>(patch.reflectance, 1) / 255.0f / kPi;
+    const float slope = comparison_slope(corners.light * to_radiance) * to_radiance;
+
+    Gain result;
+    if (patch.fragment_count > 1) {
+        const float spread = corners.high - corners.low;
+        float error2 = kSurplusNext * kSurplusNext * corners.surplus2 +
+                       kRangeNext * kRangeNext * std::max(0.0f, spread * spread - 9 * corners.variance);
+        if (corners.buried > 0 && corners.buried < corners.count)
+            error2 += kContact * kContact * corners.light * corners.light;
+        float seen2 = error2 * slope * slope + settings.epsilon * settings.epsilon;
+        if (corners.buried + 1 >= corners.count) seen2 += kUnseen * kUnseen;
+        const bool across = patch.split == Split::quad_across_s || patch.split == Split::quad_across_t;
+        const float points = across ? kNewAcross : kNewInFour;
+        const float cost = points * static_cast<float>(samples_of_new(cache, id, channel, settings)) *
+                           settings.seconds_a_sample[channel];
+        result.refine = seen2 * fragments / cost;
+    }
+    for (int i = 0; i < corners.count; ++i) {
+        const Estimate* e = cache.estimate(patch.corners[i], channel);
+        if (!e || cache.vertex(patch.corners[i]).buried || e->samples >= kMostSamples) continue;
+        const float cost = static_cast<float>(e->samples) * settings.seconds_a_sample[channel];
+        const float drop = 0.5f * e->variance * slope * slope * fragments / cost;
+        if (drop > result.resample) {
+            result.resample = drop;
+            result.noisiest = patch.corners[i];
+        }
+    }
+    return result;
+}
+
+}  // namespace chiaro

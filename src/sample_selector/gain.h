@@ -1,0 +1,43 @@
+// What evaluating more would gain, for the best scheme: expected drop of squared error on the screen
+// over its cost.
+#pragma once
+
+#include "shading_cache/shading_cache.h"
+
+#include <array>
+
+namespace chiaro {
+
+/// Costs and scales that gains are reckoned with.
+struct GainSettings {
+    float exposure = 1;       // radiance to the scale of comparison_curve()
+    float epsilon = 0.001f;   // error that is suspected everywhere, on the curve's scale (4.3)
+    std::array<float, 8> seconds_a_sample{};        // a channel
+    std::array<std::uint32_t, 8> first_samples{};   // a channel: the fewest that a vertex starts with
+};
+
+/// Two ways to spend on a patch of a channel's front: evaluate its midpoints, or take more samples at
+/// its noisiest corner.
+struct Gain {
+    float refine = 0;    // squared error times fragments a second, >= 0
+    float resample = 0;
+    VertexId noisiest = VertexId::none;
+
+    float best() const { return refine > resample ? refine : resample; }
+};
+
+/// True if `patch` belongs to the front of `channel`: its ancestors are refined and it is not.
+bool on_front(const ShadingCache& cache, PatchId patch, int channel);
+
+/// Samples with which a vertex within `patch` starts: as many as its corners have, within limits, for
+/// among well-known vertices a noisy one would do harm.
+std::uint32_t samples_of_new(const ShadingCache& cache, PatchId patch, int channel,
+                             const GainSettings& settings);
+
+/// Gain at a patch of the front. Zero where nothing of it is in view.
+///
+/// Refining pays for the error that the surplus of its corners and their range predict; but a
+/// difference within the corners' standard error is noise, and asks for samples (section 8).
+Gain gain(const ShadingCache& cache, PatchId patch, int channel, const GainSettings& settings);
+
+}  // namespace chiaro

@@ -1,0 +1,64 @@
+#include "sample_selector/priority_map.h"
+
+#include "base/tone_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace chiaro {
+
+float interpolation_error(const ShadingCache& cache, const Patch& leaf, float exposure) {
+    const float scale = exposure * static_cast<float>(leaf.reflectance) / 255 / kPi;
+    float low = kInfinity;
+    float high = -kInfinity;
+    for (int c = 0; c < leaf.corner_count(); ++c) {
+        if (!cache.evaluated(leaf.corners[c], 0)) return 1;
+        const float tone = paper_tone_value(cache.shown_total(leaf.corners[c]).irradiance, scale);
+        low = std::min(low, tone);
+        high = std::max(high, tone);
+    }
+    return high - low;
+}
+
+PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map, float exposure) {
+    PriorityMap result;
+    result.width = map.width;
+    result.height = map.height;
+    const std::size_t pixels = static_cast<std::size_t>(map.width) * map.height;
+    result.patches.assign(pixels, PatchId::none);
+    result.pixel_priorities.assign(pixels, 0.0f);
+
+    constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+    std::vector<float> by_patch(cache.patches().size(), kUnknown);
+    for (std::uint32_t p = 0; p < pixels; ++p) {
+        const auto fragments = map.at_pixel(p);
+        if (fragments.empty()) continue;
+        const PatchId leaf = fragments.front().patch;
+        float& priority = by_patch[index_of(leaf)];
+        if (std::isnan(priority)) {
+            priority = interpolation_error(cache, cache.patch(leaf), exposure);
+            result.patch_priorities.push_back(priority);
+        }
+        result.patches[p] = leaf;
+        result.pixel_priorities[p] = priority;
+    }
+    return result;
+}
+
+float PriorityRange::normalize(float priority) const {
+    if (low == high) return 0.5f;
+    return std::clamp((priority - low) / (high - low), 0.0f, 1.0f);
+}
+
+PriorityRange four_sigma_range(std::span<const float> patch_priorities) {
+    const double count = static_cast<double>(patch_priorities.size());
+    double mean = 0;
+    for (const float p : patch_priorities) mean += p / count;
+    double variance = 0;
+    for (const float p : patch_priorities) variance += (p - mean) * (p - mean) / count;
+    const double reach = 4 * std::sqrt(variance);
+    return {static_cast<float>(mean - reach), static_cast<float>(mean + reach)};
+}
+
+}  // namespace chiaro

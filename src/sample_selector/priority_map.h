@@ -1,0 +1,44 @@
+// Priorities of what is in view (4.1): the paper's estimate of each patch's interpolation error.
+#pragma once
+
+#include "shading_cache/id_map.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace chiaro {
+
+/// Priority of a leaf: the largest minus the smallest tone-mapped colour of its corners, at `exposure`
+/// and the patch's reflectance, in [0, 1]. A leaf with a corner that was never shaded: 1.
+float interpolation_error(const ShadingCache& cache, const Patch& leaf, float exposure);
+
+/// Priorities by pixel, made lazily for the leaves that cover one.
+struct PriorityMap {
+    int width = 0;
+    int height = 0;
+    std::vector<PatchId> patches;         // by pixel; none where nothing is
+    std::vector<float> pixel_priorities;  // by pixel
+    std::vector<float> patch_priorities;  // each visible leaf once, in no order that means anything
+
+    std::optional<float> at(std::uint32_t pixel) const {
+        if (patches[pixel] == PatchId::none) return std::nullopt;
+        return pixel_priorities[pixel];
+    }
+};
+
+/// A pixel on an outline, which shows several leaves, stands for the first of them.
+PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map, float exposure);
+
+/// The priorities that 4.2 maps to 0 and 1: four standard deviations below and above the average, each
+/// visible patch counting once.
+struct PriorityRange {
+    float low;
+    float high;
+
+    /// In [0, 1]; the average maps to 1/2 whatever the spread.
+    float normalize(float priority) const;
+};
+PriorityRange four_sigma_range(std::span<const float> patch_priorities);
+
+}  // namespace chiaro

@@ -1,0 +1,77 @@
+// What is rendered: arrays of values that name each other by index, and no behaviour of renderers.
+#pragma once
+
+#include "base/ids.h"
+#include "base/vec.h"
+#include "scene/camera.h"
+#include "scene/light.h"
+#include "scene/material.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace chiaro {
+
+/// A quadrilateral or a triangle of a mesh. A quad is the surface of Embree's map: the triangles
+/// (0, 1, 3) and (2, 3, 1), met along the diagonal 1-3 (scene/surface.h).
+struct Primitive {
+    static constexpr std::uint32_t kNoCorner = 0xffff'ffff;
+    std::array<std::uint32_t, 4> corners;  // points of the mesh, counter-clockwise from the front
+    MaterialId material;                   // corners[3] is kNoCorner on a triangle
+
+    bool is_quad() const { return corners[3] != kNoCorner; }
+    int corner_count() const { return is_quad() ? 4 : 3; }
+};
+
+/// Geometry in object space, shared by the objects that show it. Optional arrays are empty or have
+/// one entry a point. `quad_count` quads come first in `primitives`, then the triangles.
+struct Mesh {
+    std::string name;
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;  // unit; absent: each primitive is flat
+    std::array<std::vector<Vec2>, 2> uvs;
+    std::vector<Vec4> colors;  // linear RGBA that multiplies the base colour
+    std::vector<Primitive> primitives;
+    std::uint32_t quad_count = 0;
+};
+
+/// A mesh put in its place in the world. What an edit moves, and what a name in an edit names.
+struct Object {
+    std::string name;
+    MeshId mesh = MeshId::none;
+    Mat4 to_world = Mat4(1);  // affine, finite, not singular
+};
+
+struct Scene {
+    std::vector<Mesh> meshes;
+    std::vector<Object> objects;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<PunctualLight> lights;
+    std::vector<Camera> cameras;
+    Vec3 up = Vec3(0, 1, 0);            // the world's vertical, for cameras that we choose
+    std::vector<std::string> warnings;  // what the importer met and went on from, a line each
+
+    const Mesh& mesh_of(const Object& object) const { return meshes[index_of(object.mesh)]; }
+    const Material& material(MaterialId id) const { return materials[index_of(id)]; }
+    const Texture& texture(TextureId id) const { return textures[index_of(id)]; }
+};
+
+/// Bounds in world space of all objects.
+Box bounds(const Scene& scene);
+
+/// True if anything emits: a punctual light, or a primitive of an emissive material.
+bool has_light(const Scene& scene);
+
+/// Makes primitives ready for use: quads first (stable within the kinds), `quad_count` set, degenerate
+/// primitives (no area, repeated corners) dropped; a quad with two corners in one place becomes a
+/// triangle. Returns how many were dropped.
+std::size_t order_primitives(Mesh& mesh);
+
+/// Ends the program if an index or size of the scene is wrong: importers and built-in scenes promise
+/// all that scene.h says.
+void check_scene(const Scene& scene);
+
+}  // namespace chiaro

@@ -1,0 +1,80 @@
+#include "shading_cache/id_map.h"
+
+#include <array>
+
+namespace chiaro {
+namespace {
+
+// Sorts an inner patch's range of fragments by child, stably, and moves each into its child's
+// coordinates.
+void hand_down(ShadingCache& cache, IdMap& map, PatchId parent, Cycle now) {
+    const Patch& p = cache.patch(parent);
+    const auto range = std::span(map.order).subspan(p.first_fragment, p.fragment_count);
+    const int children = child_count(p.split);
+
+    std::array<std::vector<std::uint32_t>, 4> sorted;
+    for (const std::uint32_t f : range) {
+        Fragment& fragment = map.fragments[f];
+        const int child = child_at(p.split, fragment.local);
+        fragment.local = to_child(p.split, child, fragment.local);
+        fragment.patch = offset_by(p.first_child, child);
+        sorted[child].push_back(f);
+    }
+
+    std::uint32_t next = p.first_fragment;
+    for (int c = 0; c < children; ++c) {
+        Patch& child = cache.patch(offset_by(p.first_child, c));
+        child.first_fragment = next;
+        child.fragment_count = static_cast<std::uint32_t>(sorted[c].size());
+        if (child.fragment_count > 0) child.last_seen = now;
+        std::copy(sorted[c].begin(), sorted[c].end(), map.order.begin() + next);
+        next += child.fragment_count;
+    }
+}
+
+}  // namespace
+
+void attach(ShadingCache& cache, IdMap& map, Cycle now) {
+    for (Patch& patch : cache.patches()) patch.fragment_count = 0;
+
+    // Fragments by root: count, place, fill.
+    for (const Fragment& f : map.fragments) ++cache.patch(f.patch).fragment_count;
+    std::uint32_t next = 0;
+    std::vector<PatchId> open;
+    for (std::size_t i = 0; i < cache.patches().size(); ++i) {
+        Patch& patch = cache.patches()[i];
+        if (patch.fragment_count == 0) continue;
+        open.push_back(static_cast<PatchId>(i));
+        patch.first_fragment = next;
+        patch.last_seen = now;
+        next += patch.fragment_count;
+        patch.fragment_count = 0;
+    }
+    map.order.resize(map.fragments.size());
+    for (std::uint32_t f = 0; f < map.fragments.size(); ++f) {
+        Patch& patch = cache.patch(map.fragments[f].patch);
+        map.order[patch.first_fragment + patch.fragment_count++] = f;
+    }
+
+    // Then from each root down to the leaves.
+    while (!open.empty()) {
+        const PatchId id = open.back();
+        open.pop_back();
+        if (cache.patch(id).is_leaf() || cache.patch(id).fragment_count == 0) continue;
+        hand_down(cache, map, id, now);
+        for (int c = 0; c < child_count(cache.patch(id).split); ++c)
+            open.push_back(offset_by(cache.patch(id).first_child, c));
+    }
+}
+
+PatchId subdivide_seen(ShadingCache& cache, IdMap& map, PatchId leaf, Cycle now) {
+    const PatchId first = cache.subdivide(leaf);
+    hand_down(cache, map, leaf, now);
+    return first;
+}
+
+std::span<const std::uint32_t> fragments_of(const IdMap& map, const Patch& patch) {
+    return std::span(map.order).subspan(patch.first_fragment, patch.fragment_count);
+}
+
+}  // namespace chiaro

@@ -1,0 +1,47 @@
+// What of the view lies on which patch (4.1), kept for as long as the view rests.
+#pragma once
+
+#include "base/image.h"
+#include "shading_cache/shading_cache.h"
+
+#include <vector>
+
+namespace chiaro {
+
+/// A piece of surface that shows in a pixel. A pixel inside a surface has one fragment, one on an
+/// outline several, whose reflectances carry their parts of the pixel.
+struct Fragment {
+    std::uint32_t pixel;  // y * width + x
+    PatchId patch;        // the leaf on which it lies
+    Vec2 local;           // its place there (split.h)
+    Rgb reflectance;      // radiance in the pixel over irradiance here: coverage x base colour / pi
+};
+
+/// The paper's map of patch identifiers, by rays instead of a rendered image: kept with the list of
+/// fragments of each patch, so that a still view needs no new map a cycle. Inner patches know their
+/// fragments too: those of their descendants, consecutive in `order`.
+struct IdMap {
+    int width = 0;
+    int height = 0;
+    std::vector<Fragment> fragments;            // in order of pixels
+    std::vector<std::uint32_t> first_of_pixel;  // width x height + 1 entries
+    std::vector<std::uint32_t> order;           // fragments by patch: Patch::first_fragment
+    Image background;  // radiance that needs no shading: emission, and black where nothing is
+
+    std::span<const Fragment> at_pixel(std::uint32_t pixel) const {
+        return std::span(fragments).subspan(first_of_pixel[pixel],
+                                            first_of_pixel[pixel + 1] - first_of_pixel[pixel]);
+    }
+};
+
+/// Makes `map` the view of the cache: hands each fragment, which names a root and a place on it, down to
+/// its leaf, counts fragments of all patches, and marks these as seen. What was seen before is not.
+void attach(ShadingCache& cache, IdMap& map, Cycle now);
+
+/// Divides a leaf and hands its fragments to the children. Returns the first child.
+PatchId subdivide_seen(ShadingCache& cache, IdMap& map, PatchId leaf, Cycle now);
+
+/// Fragments that lie on `patch` or below it, as indices into map.fragments.
+std::span<const std::uint32_t> fragments_of(const IdMap& map, const Patch& patch);
+
+}  // namespace chiaro

@@ -1,0 +1,100 @@
+// Deleting patches: a collapse marks, a pack() moves what stays together. Rare, so that no other
+// code has to live with holes or reused ids.
+
+#include "base/error.h"
+#include "shading_cache/shading_cache.h"
+
+namespace chiaro {
+namespace {
+
+// Old index to new, for what is kept; order is kept too.
+template <typename Id>
+std::vector<Id> renumber(const std::vector<char>& kept) {
+    std::vector<Id> renumbered(kept.size(), Id::none);
+    std::uint32_t next = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        if (kept[i]) renumbered[i] = static_cast<Id>(next++);
+    return renumbered;
+}
+
+template <typename T>
+void keep_only(std::vector<T>& array, const std::vector<char>& kept) {
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        if (kept[i]) array[next++] = array[i];
+    array.resize(next);
+    array.shrink_to_fit();
+}
+
+}  // namespace
+
+void ShadingCache::collapse(PatchId id) {
+    Patch& p = patch(id);
+    p.split = Split::none;
+    p.first_child = PatchId::none;
+    p.refined_channels = 0;
+}
+
+void ShadingCache::pack() {
+    // What the roots still reach stays, and all vertices that these patches and their graph need.
+    std::vector<char> patch_kept(patches_.size(), 0);
+    for (const PatchId root : roots_)
+        if (root != PatchId::none) patch_kept[index_of(root)] = 1;
+    for (std::size_t i = 0; i < patches_.size(); ++i)  // parents come before children
+        if (patch_kept[i])
+            for (int c = 0; c < child_count(patches_[i].split); ++c)
+                patch_kept[index_of(offset_by(patches_[i].first_child, c))] = 1;
+    std::vector<char> vertex_kept(vertices_.size(), 0);
+    for (std::size_t i = 0; i < patches_.size(); ++i)
+        if (patch_kept[i])
+            for (int c = 0; c < patches_[i].corner_count(); ++c)
+                vertex_kept[index_of(patches_[i].corners[c])] = 1;
+    for (std::size_t i = vertices_.size(); i-- > 0;)
+        if (vertex_kept[i])
+            for (const VertexId parent : vertices_[i].parents)
+                if (parent != VertexId::none) vertex_kept[index_of(parent)] = 1;
+
+    const auto new_patch = renumber<PatchId>(patch_kept);
+    const auto new_vertex = renumber<VertexId>(vertex_kept);
+    for (Patch& p : patches_) {
+        for (VertexId& corner : p.corners)
+            if (corner != VertexId::none) corner = new_vertex[index_of(corner)];
+        if (!p.is_root()) p.parent = static_cast<std::uint32_t>(new_patch[p.parent]);
+        if (!p.is_leaf()) p.first_child = new_patch[index_of(p.first_child)];
+    }
+    for (CacheVertex& v : vertices_)
+        for (VertexId& parent : v.parents)
+            if (parent != VertexId::none) parent = new_vertex[index_of(parent)];
+    for (PatchId& root : roots_)
+        if (root != PatchId::none) root = new_patch[index_of(root)];
+    std::erase_if(welded_, [&](const auto& e) { return !vertex_kept[index_of(e.second)]; });
+    for (auto& [key, id] : welded_) id = new_vertex[index_of(id)];
+
+    pack_channels(vertex_kept);
+    keep_only(patches_, patch_kept);
+    keep_only(vertices_, vertex_kept);
+    edges_.clear();
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+        const auto& parents = vertices_[i].parents;
+        if (parents[1] != VertexId::none && parents[2] == VertexId::none)
+            edges_.insert(static_cast<VertexId>(i), vertices_);
+    }
+}
+
+void ShadingCache::pack_channels(const std::vector<char>& vertex_kept) {
+    for (int c = 0; c < channels(); ++c) {
+        std::vector<Estimate> packed;
+        for (std::size_t v = 0; v < vertex_kept.size(); ++v) {
+            std::uint32_t& slot = slots_[c][v];
+            if (!vertex_kept[v] || slot == kNoSlot) continue;
+            packed.push_back(estimates_[c][slot]);
+            slot = static_cast<std::uint32_t>(packed.size() - 1);
+        }
+        packed.shrink_to_fit();
+        estimates_[c] = std::move(packed);
+        keep_only(slots_[c], vertex_kept);
+        keep_only(shown_[c], vertex_kept);
+    }
+}
+
+}  // namespace chiaro

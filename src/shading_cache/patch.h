@@ -1,0 +1,77 @@
+// The records of the Shading Cache (3, 3.1): patches in trees, vertices in one graph.
+#pragma once
+
+#include "base/color.h"
+#include "base/ids.h"
+#include "shading_cache/split.h"
+
+#include <array>
+#include <cstdint>
+
+namespace chiaro {
+
+/// Counts finished update cycles. Ages are differences of cycles, never wall-clock time (5.1).
+using Cycle = std::uint32_t;
+
+/// Positions in the cache's arrays; valid until age_out() packs them.
+enum class PatchId : std::uint32_t { none = 0xffff'ffff };
+enum class VertexId : std::uint32_t { none = 0xffff'ffff };
+
+inline PatchId offset_by(PatchId id, int n) {
+    return static_cast<PatchId>(static_cast<std::uint32_t>(id) + static_cast<std::uint32_t>(n));
+}
+
+/// One cell of a patch tree. Leaves are drawn.
+///
+/// A channel need not be evaluated as deep as the tree goes: it is refined in a patch when its
+/// values at the children's new corners were asked for. Patches whose ancestors are all refined in
+/// a channel and that are not themselves form that channel's front, where its refinement goes on.
+struct Patch {
+    std::array<VertexId, 4> corners;  // counter-clockwise; corners[3] is none on a triangle
+    std::uint32_t parent;             // a PatchId; on a root, the index of its surface side
+    PatchId first_child = PatchId::none;  // the children are consecutive
+    std::uint32_t first_fragment = 0;     // what of the view lies on it: IdMap::order
+    std::uint32_t fragment_count = 0;
+    Cycle last_seen = 0;                  // last cycle in which it covered part of a pixel
+    Split split = Split::none;
+    std::uint8_t level = 0;             // 0 on a root
+    std::uint8_t refined_channels = 0;  // bit c: channel c is refined here
+    std::uint8_t reflectance = 255;     // mean luminance of the root's base colour, 255 is 1
+
+    bool is_root() const { return level == 0; }
+    bool is_leaf() const { return split == Split::none; }
+    bool is_quad() const { return corners[3] != VertexId::none; }
+    int corner_count() const { return is_quad() ? 4 : 3; }
+    bool refined(int channel) const { return refined_channels >> channel & 1; }
+};
+
+/// A surface point with 0 to 4 weighted parents, from whose values its own is predicted. Below the
+/// mesh these are the ends of the edge it halves or the corners of the quad it centres; a corner of
+/// the mesh has none (or vertices of a coarser level). Parents come earlier in the array than their
+/// children, so that one pass in order carries values from coarse to fine.
+struct CacheVertex {
+    static constexpr int kFullWeight = 128;  // weights are multiples of 1/128
+
+    std::array<VertexId, 4> parents = {VertexId::none, VertexId::none, VertexId::none,
+                                       VertexId::none};
+    std::array<std::uint8_t, 4> weights = {0, 0, 0, 0};
+    std::uint32_t surface_side = 0;  // of the root on which it was made
+    Vec2 uv = Vec2(0);               // where it is sampled: pulled in from the patch's border by 0.2 %
+    bool exposed = false;  // it was seen not to be buried, whatever rays met
+    bool buried = false;  // most rays from it met the inside of a solid: its values are no light
+    bool hollow = false;  // it knows no light, nor does any parent: it leaves the interpolation
+};
+
+/// What is known of one channel at one vertex.
+struct Estimate {
+    static constexpr float kUnknown = -1;
+
+    Rgb mean = Rgb(0);      // irradiance [lux a colour channel]
+    float variance = 0;     // of the mean's luminance [lux^2]
+    float surplus = 0;      // luminance by which the first mean missed its prediction, less noise
+                            // [lux]; kUnknown where there was none
+    std::uint32_t samples = 0;  // 0: not evaluated
+    Cycle shaded_at = 0;
+};
+
+}  // namespace chiaro

@@ -1,0 +1,146 @@
+// BOX Shading Cache: an object-space hierarchy of patches, shaded lazily at its vertices.
+// Source: Tole, Pellacini, Walter, Greenberg, "Interactive Global Illumination in Dynamic Scenes",
+// SIGGRAPH 2002, sections 3 and 3.1. Section numbers in this project always refer to that paper.
+#pragma once
+
+#include "scene/surface.h"
+#include "shading_cache/edge_table.h"
+#include "shading_cache/patch.h"
+
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace chiaro {
+
+/// How patches are divided: always into four as in 3.1, or by their shape (split.h).
+enum class SplitRule { always_four, by_shape };
+
+/// A value of one channel, and what it weighs in an interpolation: 0 at a hollow vertex, else 1.
+struct Shown {
+    Rgb irradiance;
+    float weight;
+};
+
+/// Owns all patches and vertices and keeps their links consistent; knows nothing of rays or pixels.
+///
+/// Thread: the update thread. Const calls from several threads at once are safe.
+/// Ids: stay valid until pack() moves what they name.
+class ShadingCache {
+public:
+    /// No patches yet: roots are made when first asked for. `scene` must outlive the cache.
+    /// `channels` (1 to 8) is fixed for the cache's life.
+    ShadingCache(const Scene& scene, int channels, SplitRule rule);
+
+    int channels() const { return static_cast<int>(estimates_.size()); }
+    const Scene& scene() const { return *scene_; }
+    std::span<const Patch> patches() const { return patches_; }
+    std::span<Patch> patches() { return patches_; }
+    std::span<const CacheVertex> vertices() const { return vertices_; }
+    Patch& patch(PatchId id) { return patches_[index_of(id)]; }
+    const Patch& patch(PatchId id) const { return patches_[index_of(id)]; }
+    const CacheVertex& vertex(VertexId id) const { return vertices_[index_of(id)]; }
+
+    /// The root patch on one side of a primitive; made, unshaded, when first asked for (3: "evaluated
+    /// lazily").
+    PatchId root(ObjectId object, std::uint32_t primitive, bool front);
+
+    /// Divides `leaf` and returns the first child. Midpoints that a neighbour has made already are
+    /// shared, so that nothing is shaded twice. Checks: `leaf` has no children.
+    PatchId subdivide(PatchId leaf);
+
+    /// Deletes everything below `patch`, which becomes a leaf, at the next pack() (3.1, aging).
+    void collapse(PatchId patch);
+
+    /// Gives up what was collapsed and moves the rest together, in order. All ids change.
+    void pack();
+
+    /// The midpoint that somebody has put on the edge between two vertices.
+    std::optional<VertexId> midpoint(VertexId a, VertexId b) const;
+
+    /// The child's place among its siblings. Checks: not a root.
+    int child_index(PatchId child) const;
+    /// The surface side on which the patch lies, and (u, v) there of one of its local points.
+    std::uint32_t surface_side(PatchId patch) const;
+    Vec2 surface_uv(PatchId patch, Vec2 local) const;
+    /// Where a vertex is sampled, and on which side.
+    SurfacePoint surface_point(VertexId vertex) const;
+    bool on_front(VertexId vertex) const { return (this->vertex(vertex).surface_side & 1) == 0; }
+
+    /// Estimate of a channel at a vertex, if it was evaluated there.
+    const Estimate* estimate(VertexId vertex, int channel) const;
+    bool evaluated(VertexId vertex, int channel) const { return estimate(vertex, channel); }
+
+    /// By how much the estimate, which is the vertex's, missed its prediction (luminance, lux); where
+    /// there was none, a part of all light there.
+    float surplus(VertexId vertex, const Estimate& estimate) const;
+
+    /// Merges `samples` further samples with their `mean` and the luminance variance of that mean.
+    /// The first time, notes the surplus over the parents' prediction. Checks: finite, samples > 0.
+    void store(VertexId vertex, int channel, Rgb mean, float variance, std::uint32_t samples,
+               Cycle now);
+    /// Most rays from the vertex met the inside of a solid (design: buried vertices).
+    void mark_buried(VertexId vertex);
+    /// Every channel was evaluated and none found any light: the inside of a solid, most likely.
+    bool dark(VertexId vertex) const;
+    /// A vertex that was taken for buried is in view: its estimates count after all, and for good.
+    void expose(VertexId vertex);
+    /// Corners of a patch that are buried.
+    int buried_corners(const Patch& patch) const;
+
+    /// The channel's value at a vertex as it was last resolved: the estimate, or what the parents
+    /// predict where there is none or the vertex is buried.
+    Shown shown(VertexId vertex, int channel) const;
+    /// Sum of all channels.
+    Shown shown_total(VertexId vertex) const;
+
+    /// Carries values from coarse to fine through the whole graph. store() resolves its own vertex;
+    /// this brings what depends on it up to date.
+    void resolve();
+
+    /// Shrinks what is shown toward the prediction by 1 - variance / surplus^2 where noise dominates.
+    void set_shrinkage(bool on) { shrinkage_ = on; }
+
+    /// Bytes that the cache's arrays and tables hold, unused capacity included.
+    std::size_t bytes() const;
+
+private:
+    VertexId corner_vertex(ObjectId object, std::uint32_t primitive, int corner,
+                           std::uint32_t side);
+    VertexId edge_midpoint(PatchId patch, Node node);
+    VertexId node_vertex(PatchId patch, Node node);
+    VertexId add_vertex(PatchId patch, Vec2 local, std::span<const VertexId> parents);
+    Split choose_split(PatchId leaf) const;
+    std::optional<Rgb> predicted(const CacheVertex& vertex, int channel) const;
+    void resolve_hollow(VertexId vertex);
+    float first_surplus(VertexId vertex, int channel, Rgb mean, float variance) const;
+    void resolve_vertex(VertexId vertex, int channel);
+    SurfacePoint place(std::uint32_t surface_side, Vec2 uv) const;
+    void pack_channels(const std::vector<char>& vertex_kept);
+
+    const Scene* scene_;
+    SplitRule rule_;
+    bool shrinkage_ = false;
+    std::vector<std::uint32_t> first_primitive_;  // of each object, in one count over all
+    std::vector<std::uint8_t> reflectances_;      // of each material, as Patch::reflectance
+    std::vector<PatchId> roots_;                  // by surface side: 2 x primitive + (back ? 1 : 0)
+    std::vector<Patch> patches_;
+    std::vector<CacheVertex> vertices_;
+    EdgeTable edges_;
+    std::unordered_multimap<std::uint64_t, VertexId> welded_;  // mesh corners by place
+
+    static constexpr std::uint32_t kNoSlot = 0xffff'ffff;
+    std::vector<std::vector<std::uint32_t>> slots_;     // a channel: vertex to estimate, or kNoSlot
+    std::vector<std::vector<Estimate>> estimates_;      // a channel: only what was evaluated
+    std::vector<std::vector<std::uint32_t>> shown_;     // a channel: RGB9E5 by vertex
+};
+
+/// Appends with capacity growing by an eighth: memory is part of what we promise.
+template <typename T>
+void append(std::vector<T>& array, const T& value) {
+    if (array.size() == array.capacity()) array.reserve(array.size() + array.size() / 8 + 64);
+    array.push_back(value);
+}
+
+}  // namespace chiaro

@@ -1,0 +1,109 @@
+#include "shading_cache/split.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+
+namespace chiaro {
+namespace {
+
+struct Family {
+    int count;
+    std::array<std::array<Node, 4>, 4> corners;
+};
+
+constexpr std::array<Node, 4> kUnused = {kNoNode, kNoNode, kNoNode, kNoNode};
+
+constexpr std::array<Family, 8> kFamilies = {{
+    {0, {kUnused, kUnused, kUnused, kUnused}},
+    {4, {{{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}}}},
+    {2, {{{0, 4, 6, 3}, {4, 1, 2, 6}, kUnused, kUnused}}},
+    {2, {{{0, 1, 5, 7}, {7, 5, 2, 3}, kUnused, kUnused}}},
+    {4, {{{0, 4, 6, kNoNode}, {4, 1, 5, kNoNode}, {6, 5, 2, kNoNode}, {5, 6, 4, kNoNode}}}},
+    {2, {{{0, 4, 2, kNoNode}, {4, 1, 2, kNoNode}, kUnused, kUnused}}},
+    {2, {{{1, 5, 0, kNoNode}, {5, 2, 0, kNoNode}, kUnused, kUnused}}},
+    {2, {{{2, 6, 1, kNoNode}, {6, 0, 1, kNoNode}, kUnused, kUnused}}},
+}};
+
+const Family& family(Split split) { return kFamilies[static_cast<std::size_t>(split)]; }
+
+bool divides_quad(Split split) { return split <= Split::quad_across_t; }
+
+// A child's place in its parent, and the way back.
+struct Affine {
+    Vec2 origin;
+    Vec2 along_s, along_t;      // child to parent
+    Vec2 inverse_s, inverse_t;  // rows of the inverse's columns: parent to child
+};
+
+Affine make_affine(Split split, int child) {
+    const auto& nodes = family(split).corners[child];
+    const bool quad = divides_quad(split);
+    Affine a;
+    a.origin = node_place(quad, nodes[0]);
+    a.along_s = node_place(quad, nodes[1]) - a.origin;
+    a.along_t = node_place(quad, nodes[quad ? 3 : 2]) - a.origin;
+    const float determinant = a.along_s.x * a.along_t.y - a.along_s.y * a.along_t.x;
+    a.inverse_s = Vec2(a.along_t.y, -a.along_s.y) / determinant;
+    a.inverse_t = Vec2(-a.along_t.x, a.along_s.x) / determinant;
+    return a;
+}
+
+const Affine& affine(Split split, int child) {
+    static const auto table = [] {
+        std::array<std::array<Affine, 4>, 8> t{};
+        for (std::size_t s = 1; s < kFamilies.size(); ++s)
+            for (int c = 0; c < kFamilies[s].count; ++c)
+                t[s][c] = make_affine(static_cast<Split>(s), c);
+        return t;
+    }();
+    return table[static_cast<std::size_t>(split)][child];
+}
+
+// How far inside its patch a local point lies; negative outside.
+float margin(bool quad, Vec2 p) {
+    return quad ? std::min({p.x, 1 - p.x, p.y, 1 - p.y}) : std::min({p.x, p.y, 1 - p.x - p.y});
+}
+
+}  // namespace
+
+int child_count(Split split) { return family(split).count; }
+
+std::span<const Node, 4> child_corners(Split split, int child) {
+    return family(split).corners[child];
+}
+
+int child_at(Split split, Vec2 local) {
+    int best = 0;
+    float best_margin = -kInfinity;
+    for (int child = 0; child < family(split).count; ++child) {
+        const float m = margin(divides_quad(split), to_child(split, child, local));
+        if (m > best_margin) {
+            best = child;
+            best_margin = m;
+        }
+    }
+    return best;
+}
+
+Vec2 to_child(Split split, int child, Vec2 local) {
+    const Affine& a = affine(split, child);
+    const Vec2 d = local - a.origin;
+    return d.x * a.inverse_s + d.y * a.inverse_t;
+}
+
+Vec2 to_parent(Split split, int child, Vec2 local) {
+    const Affine& a = affine(split, child);
+    return a.origin + local.x * a.along_s + local.y * a.along_t;
+}
+
+Vec2 node_place(bool quad, Node node) {
+    constexpr std::array<Vec2, 9> on_quad = {Vec2(0, 0),   {1, 0}, {1, 1},   {0, 1},    {0.5f, 0},
+                                             {1, 0.5f}, {0.5f, 1}, {0, 0.5f}, {0.5f, 0.5f}};
+    constexpr std::array<Vec2, 7> on_triangle = {Vec2(0, 0),   {1, 0}, {0, 1}, {0, 0},
+                                                 {0.5f, 0}, {0.5f, 0.5f}, {0, 0.5f}};
+    check(node < (quad ? on_quad.size() : on_triangle.size()), "node_place: no such node");
+    return quad ? on_quad[node] : on_triangle[node];
+}
+
+}  // namespace chiaro

@@ -1,0 +1,153 @@
+// What vertices know and what they show: estimates merged as samples come, values carried from coarse
+// to fine through the graph.
+
+#include "base/error.h"
+#include "base/rgb9e5.h"
+#include "shading_cache/shading_cache.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chiaro {
+
+void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std::uint32_t samples,
+                         Cycle now) {
+    check(is_finite(mean) && std::isfinite(variance) && samples > 0, "store: value is not usable");
+    std::uint32_t& slot = slots_[channel][index_of(id)];
+    if (slot == kNoSlot) {
+        slot = static_cast<std::uint32_t>(estimates_[channel].size());
+        append(estimates_[channel],
+               Estimate{mean, variance, first_surplus(id, channel, mean, variance), samples, now});
+    } else {
+        // Batches are merged as if they were independent; parts of one Halton sequence do better than
+        // that, so that the variance is not understated.
+        Estimate& e = estimates_[channel][slot];
+        const float old_part = static_cast<float>(e.samples) / static_cast<float>(e.samples + samples);
+        const float new_part = 1 - old_part;
+        e.mean = old_part * e.mean + new_part * mean;
+        e.variance = old_part * old_part * e.variance + new_part * new_part * variance;
+        e.samples += samples;
+        e.shaded_at = now;
+    }
+    resolve_hollow(id);
+    resolve_vertex(id, channel);
+}
+
+// By how much the prediction missed the first estimate, beyond what its noise explains. A vertex that
+// happens to agree does not speak for its neighbourhood alone: a quarter of its parents' surplus
+// is what a smooth function would have left.
+float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float variance) const {
+    const std::optional<Rgb> prediction = predicted(vertex(id), channel);
+    if (!prediction) return Estimate::kUnknown;
+    const float miss = luminance(mean) - luminance(*prediction);
+    float inherited = 0;
+    float noise = variance;
+    for (int i = 0; i < 4 && vertex(id).parents[i] != VertexId::none; ++i) {
+        const Estimate* e = estimate(vertex(id).parents[i], channel);
+        if (!e) continue;
+        const float weight = static_cast<float>(vertex(id).weights[i]) / CacheVertex::kFullWeight;
+        noise += weight * weight * e->variance;
+        inherited = std::max(inherited, surplus(vertex(id).parents[i], *e));
+    }
+    const float own = std::sqrt(std::max(0.0f, miss * miss - 3 * noise));
+    return std::max(own, 0.25f * inherited);
+}
+
+float ShadingCache::surplus(VertexId id, const Estimate& estimate) const {
+    // A vertex that nothing predicted tells nothing of what lies around it.
+    constexpr float kPartUnknown = 0.25f;
+    if (estimate.surplus != Estimate::kUnknown) return estimate.surplus;
+    return kPartUnknown * luminance(shown_total(id).irradiance);
+}
+
+void ShadingCache::mark_buried(VertexId id) {
+    if (vertex(id).exposed) return;
+    vertices_[index_of(id)].buried = true;
+    resolve_hollow(id);
+    for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
+}
+
+bool ShadingCache::dark(VertexId id) const {
+    for (int c = 0; c < channels(); ++c) {
+        const Estimate* e = estimate(id, c);
+        if (!e || max_component(e->mean) > 0) return false;
+    }
+    return true;
+}
+
+void ShadingCache::expose(VertexId id) {
+    vertices_[index_of(id)].exposed = true;
+    vertices_[index_of(id)].buried = false;
+    resolve_hollow(id);
+    for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
+}
+
+int ShadingCache::buried_corners(const Patch& patch) const {
+    int count = 0;
+    for (int c = 0; c < patch.corner_count(); ++c) count += vertex(patch.corners[c]).buried ? 1 : 0;
+    return count;
+}
+
+Shown ShadingCache::shown(VertexId id, int channel) const {
+    return {unpack_rgb9e5(shown_[channel][index_of(id)]), vertex(id).hollow ? 0.0f : 1.0f};
+}
+
+Shown ShadingCache::shown_total(VertexId id) const {
+    Shown total = shown(id, 0);
+    for (int c = 1; c < channels(); ++c) total.irradiance += shown(id, c).irradiance;
+    return total;
+}
+
+// The parents' weighted mean, hollow ones left out; nothing if none is left.
+std::optional<Rgb> ShadingCache::predicted(const CacheVertex& v, int channel) const {
+    Rgb sum(0);
+    int weight = 0;
+    for (int i = 0; i < 4 && v.parents[i] != VertexId::none; ++i) {
+        if (vertex(v.parents[i]).hollow) continue;
+        sum += static_cast<float>(v.weights[i]) * unpack_rgb9e5(shown_[channel][index_of(v.parents[i])]);
+        weight += v.weights[i];
+    }
+    if (weight == 0) return std::nullopt;
+    return sum / static_cast<float>(weight);
+}
+
+void ShadingCache::resolve_vertex(VertexId id, int channel) {
+    const CacheVertex& v = vertex(id);
+    const Estimate* e = v.buried ? nullptr : estimate(id, channel);
+    Rgb value(0);
+    if (e && !shrinkage_) {
+        value = e->mean;
+    } else {
+        const std::optional<Rgb> prediction = predicted(v, channel);
+        if (!e) {
+            value = prediction.value_or(Rgb(0));
+        } else if (!prediction) {
+            value = e->mean;
+        } else {
+            const float miss = luminance(e->mean) - luminance(*prediction);
+            const float keep = miss == 0 ? 1 : std::max(0.0f, 1 - e->variance / (miss * miss));
+            value = glm::mix(*prediction, e->mean, keep);
+        }
+    }
+    shown_[channel][index_of(id)] = pack_rgb9e5(value);
+}
+
+void ShadingCache::resolve_hollow(VertexId id) {
+    CacheVertex& v = vertices_[index_of(id)];
+    bool knows = false;
+    for (int c = 0; c < channels() && !v.buried; ++c) knows |= evaluated(id, c);
+    for (int i = 0; i < 4 && v.parents[i] != VertexId::none; ++i)
+        knows |= !vertex(v.parents[i]).hollow;
+    v.hollow = !knows;
+}
+
+void ShadingCache::resolve() {
+    // Parents come earlier in the array than their children, so one pass is enough.
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+        const auto id = static_cast<VertexId>(i);
+        resolve_hollow(id);
+        for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
+    }
+}
+
+}  // namespace chiaro

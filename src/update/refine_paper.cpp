@@ -1,0 +1,89 @@
+// Refinement as the paper has it (3.1, 4): pixels selected by priority, the patches under them shaded
+// or divided into four, those with more samples first.
+
+#include "update/update_cycle.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+namespace chiaro {
+namespace {
+
+struct SelectedPatch {
+    PatchId patch;
+    int samples;
+};
+
+// Each patch with the number of samples that lie on it, most first.
+std::vector<SelectedPatch> count_by_patch(const PriorityMap& map,
+                                          const std::vector<SelectedPixel>& selection) {
+    std::map<PatchId, int> counts;
+    for (const SelectedPixel& s : selection) ++counts[map.patches[s.pixel]];
+    std::vector<SelectedPatch> patches;
+    for (const auto& [patch, samples] : counts) patches.push_back({patch, samples});
+    std::stable_sort(patches.begin(), patches.end(), [](const auto& a, const auto& b) {
+        return a.samples > b.samples;
+    });
+    return patches;
+}
+
+bool all_evaluated(const ShadingCache& cache, const Patch& patch) {
+    for (int c = 0; c < patch.corner_count(); ++c)
+        if (!cache.evaluated(patch.corners[c], 0)) return false;
+    return true;
+}
+
+constexpr std::size_t kFixedSampleCount = 128;
+
+}  // namespace
+
+void UpdateCycle::refine_as_paper() {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<SelectedPatch> selected;
+    {
+        const StepTimer timer(statistics_.timings, Step::sample_selection);
+        const PriorityMap map = make_priority_map(cache_, map_, gains_.exposure);
+        SelectionSettings settings;
+        settings.sample_count = settings_.fixed_size
+                                    ? kFixedSampleCount
+                                    : static_cast<std::size_t>(paper_sample_count_);
+        selection_ = select_samples(map, settings, rng_);
+        selected = count_by_patch(map, selection_);
+    }
+
+    ShadeWork work(plans_, settings_.seed);
+    {
+        const StepTimer timer(statistics_.timings, Step::patch_subdivision);
+        for (const auto& [patch, samples] : selected) shade_or_subdivide(patch, work);
+    }
+    shade(work);
+    {
+        const StepTimer timer(statistics_.timings, Step::update_display_meshes);
+        cache_.resolve();
+    }
+
+    // The next cycle asks for as many as would have filled this one's time.
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double factor = std::clamp(settings_.cycle_seconds / seconds, 0.5, 2.0);
+    paper_sample_count_ = std::clamp(paper_sample_count_ * factor, 8.0, 1e6);
+}
+
+// 3.1: "we either evaluate the shading values for its vertices or subdivide the patch into four
+// children and evaluate the shading values for their vertices", down to one pixel.
+void UpdateCycle::shade_or_subdivide(PatchId id, ShadeWork& work) {
+    const auto evaluate = [&](const Patch& p) {
+        for (int c = 0; c < p.corner_count(); ++c) work.evaluate(cache_, p.corners[c], 0);
+    };
+    if (!all_evaluated(cache_, cache_.patch(id))) {
+        evaluate(cache_.patch(id));
+    } else if (cache_.patch(id).fragment_count > 1) {
+        const PatchId first =
+            subdivide_seen(cache_, map_, id, static_cast<Cycle>(statistics_.cycles));
+        cache_.patch(id).refined_channels = 1;
+        for (int c = 0; c < 4; ++c) evaluate(cache_.patch(offset_by(first, c)));
+    }
+}
+
+}  // namespace chiaro

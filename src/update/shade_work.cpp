@@ -1,0 +1,89 @@
+#include "update/shade_work.h"
+
+#include "base/random.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+
+namespace chiaro {
+namespace {
+
+// A vertex is its place: the same vertex draws the same numbers whenever and wherever it is made.
+std::uint32_t vertex_seed(const CacheVertex& vertex, int channel, std::uint64_t session_seed) {
+    std::uint32_t h = hash32(static_cast<std::uint32_t>(session_seed),
+                             static_cast<std::uint32_t>(session_seed >> 32));
+    h = hash32(h, vertex.surface_side);
+    h = hash32(h, std::bit_cast<std::uint32_t>(vertex.uv.x));
+    h = hash32(h, std::bit_cast<std::uint32_t>(vertex.uv.y));
+    return hash32(h, static_cast<std::uint32_t>(channel));
+}
+
+}  // namespace
+
+ShadeWork::ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed) : seed_(seed) {
+    for (const ChannelPlan& plan : plans) channels_.push_back({plan, {}, {}, 0});
+}
+
+bool ShadeWork::evaluate(const ShadingCache& cache, VertexId vertex, int channel,
+                         std::uint32_t samples) {
+    if (cache.evaluated(vertex, channel)) return false;
+    if (samples == 0) samples = channels_[channel].plan.first_samples;
+    return add(cache, vertex, channel, 0, samples);
+}
+
+bool ShadeWork::resample(const ShadingCache& cache, VertexId vertex, int channel) {
+    const Estimate* e = cache.estimate(vertex, channel);
+    if (!e) return evaluate(cache, vertex, channel);
+    return add(cache, vertex, channel, e->samples, std::min(e->samples, kMostAtOnce));
+}
+
+bool ShadeWork::add(const ShadingCache& cache, VertexId vertex, int channel, std::uint32_t first,
+                    std::uint32_t samples) {
+    const std::uint64_t key = index_of(vertex) * 8 + static_cast<std::uint64_t>(channel);
+    if (!asked_.insert(key).second) return false;
+    Channel& c = channels_[channel];
+    ShadeRequest request;
+    request.where = cache.surface_point(vertex);
+    request.front = cache.on_front(vertex);
+    request.light = c.plan.light;
+    request.seed = vertex_seed(cache.vertex(vertex), channel, seed_);
+    request.first_sample = first;
+    request.samples = samples;
+    request.indirect_samples = c.plan.indirect_samples;
+    c.vertices.push_back(vertex);
+    c.requests.push_back(request);
+    c.samples += samples + c.plan.indirect_samples;
+    return true;
+}
+
+std::size_t ShadeWork::points() const {
+    std::size_t total = 0;
+    for (const Channel& c : channels_) total += c.requests.size();
+    return total;
+}
+
+double ShadeWork::shade(ShadingCache& cache, SampleRenderer& renderer, int channel, Cycle now) {
+    Channel& c = channels_[channel];
+    if (c.requests.empty()) return 0;
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<ShadeResult> results(c.requests.size());
+    renderer.shade(c.requests, results);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+    // In the graph's order, so that a vertex finds its parents stored when it reckons its surplus.
+    std::vector<std::size_t> order(results.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return c.vertices[a] < c.vertices[b]; });
+    for (const std::size_t i : order) {
+        const ShadeResult& r = results[i];
+        cache.store(c.vertices[i], channel, r.mean, luminance_variance(r.variance),
+                    c.requests[i].samples, now);
+        if (r.buried || cache.dark(c.vertices[i])) cache.mark_buried(c.vertices[i]);
+    }
+    return seconds;
+}
+
+}  // namespace chiaro

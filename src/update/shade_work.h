@@ -1,0 +1,57 @@
+// The points that a cycle wants shaded, from selection to what is stored.
+#pragma once
+
+#include "sample_renderer/sample_renderer.h"
+#include "shading_cache/shading_cache.h"
+
+#include <array>
+#include <unordered_set>
+#include <vector>
+
+namespace chiaro {
+
+/// What each channel of a cache holds, and with how many samples a vertex is first evaluated.
+struct ChannelPlan {
+    Light light = Light::direct;
+    std::uint32_t first_samples = 32;
+    std::uint32_t indirect_samples = 0;  // of Light::total
+};
+
+/// Requests of one cycle. Each (vertex, channel) is asked for at most once a cycle.
+class ShadeWork {
+public:
+    /// `seed` is the session's; a vertex's own follows from it, its place and its channel.
+    ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed);
+
+    /// Asks for `samples` first samples of a vertex (0: as the plan says), unless it is evaluated or
+    /// asked for. Returns whether it was added.
+    bool evaluate(const ShadingCache& cache, VertexId vertex, int channel,
+                  std::uint32_t samples = 0);
+    /// Asks for as many samples again as an evaluated vertex has, at most kMostAtOnce.
+    bool resample(const ShadingCache& cache, VertexId vertex, int channel);
+
+    std::size_t points() const;
+    /// Samples asked for of a channel.
+    std::size_t samples(int channel) const { return channels_[channel].samples; }
+
+    /// Shades a channel's requests and stores what comes back. Returns the seconds that it took.
+    double shade(ShadingCache& cache, SampleRenderer& renderer, int channel, Cycle now);
+
+    static constexpr std::uint32_t kMostAtOnce = 8192;
+
+private:
+    bool add(const ShadingCache& cache, VertexId vertex, int channel, std::uint32_t first,
+             std::uint32_t samples);
+
+    struct Channel {
+        ChannelPlan plan;
+        std::vector<VertexId> vertices;
+        std::vector<ShadeRequest> requests;
+        std::size_t samples = 0;
+    };
+    std::vector<Channel> channels_;
+    std::unordered_set<std::uint64_t> asked_;
+    std::uint64_t seed_;
+};
+
+}  // namespace chiaro

@@ -1,0 +1,107 @@
+// The arrows of Figure 2: one cycle selects, shades or subdivides, stores, ages and resolves.
+#pragma once
+
+#include "image_generator/ray_view.h"
+#include "sample_selector/gain.h"
+#include "sample_selector/select_samples.h"
+#include "sample_selector/sum_tree.h"
+#include "shading_cache/age_out.h"
+#include "update/shade_work.h"
+#include "update/timings.h"
+
+#include <optional>
+
+namespace chiaro {
+
+/// `paper` is sections 3 and 4 as they stand: one joint channel, fixed samples, the difference of the
+/// corners. `best` is what measured better (docs/overview.md).
+enum class Scheme { best, paper };
+
+struct UpdateSettings {
+    Scheme scheme = Scheme::best;
+    int threads = 1;
+    std::uint64_t seed = 1;
+    Aov aov = Aov::radiance;
+    std::uint32_t direct_samples = 100;    // paper: of the joint channel, fixed
+    std::uint32_t indirect_samples = 400;
+    double cycle_seconds = 0.05;           // the length that a cycle adjusts itself to
+    double first_picture_seconds = 0.15;   // what the first cycle may spend on shading
+    bool fixed_size = false;  // cycles of a fixed number of points: the same bits on any machine
+    bool shrinkage = false;
+    AgingSettings aging;
+};
+
+struct Statistics {
+    std::size_t cycles = 0;
+    std::size_t points_shaded = 0;  // evaluations of one channel at one vertex
+    std::array<std::size_t, 8> samples{};  // a channel
+    Timings timings;
+};
+
+/// The update loop's state. Owns the cache, the ID map and the front of refinement.
+///
+/// Thread: one, the update thread. Scene, rays, renderer and open sides must outlive it.
+class UpdateCycle {
+public:
+    UpdateCycle(const RayCaster& rays, SampleRenderer& renderer, OpenSides& open_sides,
+                const UpdateSettings& settings);
+
+    /// Looks from elsewhere, from the next cycle on. Diffuse shading stays: it does not depend on the eye.
+    void look_from(const View& view);
+
+    /// One cycle. The first after look_from() ends with a picture that covers the whole view.
+    void run();
+
+    /// The picture as it is now.
+    Image picture() const { return draw(cache_, map_, settings_.threads); }
+
+    const ShadingCache& cache() const { return cache_; }
+    const IdMap& id_map() const { return map_; }
+    const Statistics& statistics() const { return statistics_; }
+    /// Samples that the last cycle of the paper's scheme selected.
+    const std::vector<SelectedPixel>& last_selection() const { return selection_; }
+    float exposure() const { return gains_.exposure; }
+    std::size_t bytes() const;
+
+private:
+    void make_map(ViewQuality quality);
+    void start();
+    void dig_out();
+    void divide(PatchId patch, int channel, ShadeWork& work);
+    std::uint32_t even_out_channel(int channel, double seconds);
+    void refine();
+    void refine_as_paper();
+    void shade_or_subdivide(PatchId patch, ShadeWork& work);
+    void age();
+    void choose(ShadeWork& work);
+    bool draw_patch(PatchId& patch, int& channel);
+    PatchId front_patch_at(std::uint32_t pixel, int channel);
+    void spend_on(PatchId patch, int channel, ShadeWork& work);
+    void shade(ShadeWork& work);
+    void set_gain(PatchId patch, int channel);
+    void refresh();
+    void estimate_exposure();
+    double work_seconds(const ShadeWork& work) const;
+    double seconds_budget() const;
+
+    const RayCaster* rays_;
+    SampleRenderer* renderer_;
+    OpenSides* open_sides_;
+    UpdateSettings settings_;
+    std::vector<ChannelPlan> plans_;
+    ShadingCache cache_;
+    IdMap map_;
+    std::optional<View> view_;
+    enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
+
+    Rng rng_;
+    GainSettings gains_;
+    std::vector<SumTree> front_;       // a channel: gain by patch
+    std::vector<std::pair<PatchId, int>> touched_;  // gains to reckon anew once shaded
+    std::size_t points_since_refresh_ = 0;
+    double paper_sample_count_ = 70;
+    std::vector<SelectedPixel> selection_;
+    Statistics statistics_;
+};
+
+}  // namespace chiaro
