@@ -7,11 +7,11 @@
 namespace chiaro {
 namespace {
 
-// Pixels in which one ray is not enough: detail within, or an outline toward any of 4 neighbours.
+// Pixels in which one ray is not enough: an outline runs toward one of the neighbours.
 bool needs_more_rays(const std::vector<std::vector<CentreHit>>& centres, int x, int y,
                      float footprint) {
     const CentreHit& here = centres[y][x];
-    if (here.detailed) return true;
+    if (here.shines) return true;
     const int height = static_cast<int>(centres.size());
     const int width = static_cast<int>(centres[y].size());
     for (int dy = -1; dy <= 1; ++dy)
@@ -23,17 +23,46 @@ bool needs_more_rays(const std::vector<std::vector<CentreHit>>& centres, int x, 
     return false;
 }
 
-// A row again, with 16 rays in each pixel that needs them.
+// The hits of two neighbours, beside and above or below, that lie on the same primitive as this pixel's.
+struct Neighbours {
+    const CentreHit* beside = nullptr;
+    const CentreHit* below = nullptr;
+};
+Neighbours on_same_primitive(const std::vector<std::vector<CentreHit>>& centres, int x, int y) {
+    const CentreHit& here = centres[y][x];
+    const auto same = [&](int nx, int ny) -> const CentreHit* {
+        if (ny < 0 || ny >= static_cast<int>(centres.size())) return nullptr;
+        if (nx < 0 || nx >= static_cast<int>(centres[ny].size())) return nullptr;
+        const CentreHit& there = centres[ny][nx];
+        const bool one = there.object == here.object && there.point.primitive == here.point.primitive;
+        return one ? &there : nullptr;
+    };
+    Neighbours n{same(x + 1, y), same(x, y + 1)};
+    if (!n.beside) n.beside = same(x - 1, y);
+    if (!n.below) n.below = same(x, y - 1);
+    return n;
+}
+
+// A row again, with 16 rays in each pixel that needs them, and textures averaged over the others.
 SeenRow refine_row(const RayCaster& rays, const View& view, int y, const SeenRow& coarse,
                    const std::vector<std::vector<CentreHit>>& centres, float footprint, Aov aov) {
     SeenRow row;
     row.background = coarse.background;
     auto piece = coarse.pieces.begin();
     for (int x = 0; x < view.width(); ++x) {
-        const bool more = needs_more_rays(centres, x, y, footprint);
+        const CentreHit& centre = centres[y][x];
+        const Neighbours near = centre.textured ? on_same_primitive(centres, x, y) : Neighbours{};
+        const bool cornered = centre.textured && !(near.beside && near.below);
+        const bool more = cornered || needs_more_rays(centres, x, y, footprint);
         if (more) see_pixel(rays, view, x, y, aov, row);
-        for (; piece != coarse.pieces.end() && piece->x == static_cast<std::uint32_t>(x); ++piece)
-            if (!more) row.pieces.push_back(*piece);
+        for (; piece != coarse.pieces.end() && piece->x == static_cast<std::uint32_t>(x); ++piece) {
+            if (more) continue;
+            row.pieces.push_back(*piece);
+            if (centre.textured && aov == Aov::radiance)
+                row.pieces.back().reflectance =
+                    mean_base_color(rays.scene(), centre.point, near.beside->point,
+                                    near.below->point) / kPi;
+        }
     }
     return row;
 }

@@ -98,7 +98,7 @@ SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
              CentreHit& centre = centres[l.x];
              if (centre.object != ObjectId::none) return;
              centre = {hit.point.object, at.primitive->material, at.geometric_normal, at.position,
-                       hit.t, m.base_color_texture.used() || m.emissive() || m.see_through()};
+                       hit.t, hit.point, m.base_color_texture.used(), m.emissive() || m.see_through()};
          });
     // Layers were seen one after the other; a pixel's pieces belong together.
     std::stable_sort(row.pieces.begin(), row.pieces.end(),
@@ -130,6 +130,32 @@ void see_pixel(const RayCaster& rays, const View& view, int x, int y, Aov aov, S
                  background += part * emission(scene, hit.point, hit.front);
          });
     row.background[x] = background;
+}
+
+Rgb mean_base_color(const Scene& scene, const SurfacePoint& here, const SurfacePoint& beside,
+                    const SurfacePoint& below) {
+    const Vec2 across(beside.u - here.u, beside.v - here.v);
+    const Vec2 down(below.u - here.u, below.v - here.v);
+    const auto color_at = [&](float x, float y) {
+        SurfacePoint p = here;
+        const Vec2 uv = Vec2(here.u, here.v) + x * across + y * down;
+        p.u = std::clamp(uv.x, 0.0f, 1.0f);
+        p.v = std::clamp(uv.y, 0.0f, 1.0f);
+        return Rgb(base_color(scene, p));
+    };
+    // Four places show whether there is any detail within the pixel; if so, sixteen resolve it.
+    Rgb sum(0), low(kInfinity), high(0);
+    for (int i = 0; i < 4; ++i) {
+        const Rgb c = color_at(i % 2 == 0 ? -0.3f : 0.3f, i < 2 ? -0.3f : 0.3f);
+        sum += c;
+        low = glm::min(low, c);
+        high = glm::max(high, c);
+    }
+    if (max_component(high - low) < 0.02f * max_component(high)) return 0.25f * sum;
+    sum = Rgb(0);
+    for (int i = 0; i < 16; ++i)
+        sum += color_at((static_cast<float>(i % 4) - 1.5f) / 4, (static_cast<float>(i / 4) - 1.5f) / 4);
+    return sum / 16.0f;
 }
 
 bool outline_between(const CentreHit& a, const CentreHit& b, float footprint) {

@@ -22,7 +22,9 @@ struct CentreHit {
     Vec3 normal = Vec3(0);
     Vec3 position = Vec3(0);
     float distance = 0;
-    bool detailed = false;  // textured, emissive or seen through: one ray is not enough
+    SurfacePoint point;
+    bool textured = false;
+    bool shines = false;  // emissive or seen through: only rays tell how much of the pixel it fills
 };
 
 struct SeenRow {
@@ -37,6 +39,11 @@ SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
 /// 16 rays through pixel (x, y), replacing what the centre's ray saw: appends to `row.pieces` and sets
 /// row.background[x].
 void see_pixel(const RayCaster& rays, const View& view, int x, int y, Aov aov, SeenRow& row);
+
+/// Mean base colour over a pixel that shows one primitive alone, from the surface points that its own
+/// centre and those of two neighbours show, to the side and below or above.
+Rgb mean_base_color(const Scene& scene, const SurfacePoint& here, const SurfacePoint& beside,
+                    const SurfacePoint& below);
 
 /// Whether an outline runs between two pixels, `footprint` being a pixel's size in radians.
 bool outline_between(const CentreHit& a, const CentreHit& b, float footprint);

@@ -13,23 +13,24 @@ enum class LightKind { point, spot, directional };
 struct PunctualLight {
     std::string name;
     LightKind kind = LightKind::point;
-    Rgb intensity = Rgb(0);          // point, spot: candela a channel; directional: lux a channel
-    Vec3 position = Vec3(0);         // world; unused when directional
-    Vec3 direction = Vec3(0, 0, -1); // world, unit, the way the light travels; unused when point
-    float inner_cone = 0;            // spot: radians from the axis to full intensity
-    float outer_cone = 0.785398163f; // spot: radians from the axis to none
-    float range = kInfinity;         // kept from the file; light is not cut off at it
+    Rgb intensity = Rgb(0);           // point, spot: candela a channel; directional: lux a channel
+    Vec3 position = Vec3(0);          // world; unused when directional
+    Vec3 direction = Vec3(0, 0, -1);  // world, unit, the way the light travels; unused when point
+    float inner_cone = 0;             // spot: radians from the axis to full intensity
+    float outer_cone = 0.785398163f;  // spot: radians from the axis to none
+    float range = kInfinity;          // kept from the file; light is not cut off at it
 };
 
 /// Light that a punctual source would send to a point, were nothing in between.
 struct PunctualArrival {
-    Vec3 to_light;      // unit
-    float distance;     // infinite when directional
-    Rgb irradiance;     // on a surface facing the light [lux a channel]
+    Vec3 to_light;   // unit
+    float distance;  // infinite when directional
+    Rgb irradiance;  // on a surface facing the light [lux a channel]
 };
 
 /// What `light` sends to `point` (world); nothing outside a spot's cone or at the source itself.
-/// Spot falloff as KHR_lights_punctual's reference: smooth between the squared cosines of the cones.
+/// Spot falloff as KHR_lights_punctual's reference: smooth between the squared cosines of the
+/// cones.
 std::optional<PunctualArrival> arrival(const PunctualLight& light, Vec3 point);
 
 }  // namespace chiaro

@@ -19,9 +19,9 @@ public:
     /// The front (or back) of the primitive was seen from a good place.
     void mark(ObjectId object, std::uint32_t primitive, bool front);
 
-    /// True if whoever meets this side is inside a solid: the side is not known to be open, and the
-    /// other side is; or the primitive has no mark, and at least 90 % of those of its object that
-    /// have are open on the other side only.
+    /// True if whoever meets this side is inside a solid: the side is not known to be open, and at
+    /// least 90 % of the object's marked primitives are open on the other side only; or, where the
+    /// object's primitives do not agree like that, this one is open on the other side.
     bool is_inside(ObjectId object, std::uint32_t primitive, bool front_hit) const;
 
 private:

@@ -23,8 +23,8 @@ struct CornerWeights {
 CornerWeights corner_weights(bool is_quad, float u, float v);
 
 /// Geometry at a surface point, in world space. Normals are of unit length, on the front side
-/// (counter-clockwise winding); `shading_normal` is interpolated where the mesh has normals and is on
-/// the same side as `geometric_normal`.
+/// (counter-clockwise winding); `shading_normal` is interpolated where the mesh has normals and is
+/// on the same side as `geometric_normal`.
 struct SurfaceGeometry {
     Vec3 position;
     Vec3 geometric_normal;
@@ -34,7 +34,8 @@ struct SurfaceGeometry {
 };
 SurfaceGeometry surface_geometry(const Scene& scene, const SurfacePoint& point);
 
-/// The shading normal alone, for a caller that has the geometric one (both world space, unit, front).
+/// The shading normal alone, for a caller that has the geometric one (both world space, unit,
+/// front).
 Vec3 shading_normal(const Scene& scene, const SurfacePoint& point, Vec3 geometric_normal);
 
 /// Takes a cross product of edges in object space to that of the same edges in world space, on the

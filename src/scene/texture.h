@@ -1,4 +1,5 @@
-// Textures: texel arrays and how they are looked up (glTF 2.0, 5.26 samplers; KHR_texture_transform).
+// Textures: texel arrays and how they are looked up (glTF 2.0, 5.26 samplers;
+// KHR_texture_transform).
 #pragma once
 
 #include "base/color.h"
@@ -13,8 +14,8 @@ namespace chiaro {
 
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
-/// 8-bit RGBA texels, sRGB-encoded in the colour channels where `srgb` says so, rows from the top of
-/// the image. Texture coordinate (0, 0) is the top left corner (glTF); importers of files with
+/// 8-bit RGBA texels, sRGB-encoded in the colour channels where `srgb` says so, rows from the top
+/// of the image. Texture coordinate (0, 0) is the top left corner (glTF); importers of files with
 /// another origin flip the coordinate.
 struct Texture {
     std::string name;
@@ -30,10 +31,10 @@ struct Texture {
 /// A texture as a material uses it: which set of coordinates, and how these are transformed first.
 struct TextureUse {
     TextureId texture = TextureId::none;
-    std::uint8_t uv_set = 0;                // 0 or 1
-    Vec2 offset = Vec2(0);                  // KHR_texture_transform: uv' = offset + rotate(scale * uv)
+    std::uint8_t uv_set = 0;  // 0 or 1
+    Vec2 offset = Vec2(0);    // KHR_texture_transform: uv' = offset + rotate(scale * uv)
     Vec2 scale = Vec2(1);
-    float rotation = 0;                     // radians, counter-clockwise in uv as glTF defines it
+    float rotation = 0;  // radians, counter-clockwise in uv as glTF defines it
 
     bool used() const { return texture != TextureId::none; }
     Vec2 transform(Vec2 uv) const;

@@ -2,8 +2,6 @@
 
 #include "base/error.h"
 
-#include <algorithm>
-
 namespace chiaro {
 namespace {
 
@@ -49,20 +47,16 @@ Affine make_affine(Split split, int child) {
     return a;
 }
 
-const Affine& affine(Split split, int child) {
-    static const auto table = [] {
-        std::array<std::array<Affine, 4>, 8> t{};
-        for (std::size_t s = 1; s < kFamilies.size(); ++s)
-            for (int c = 0; c < kFamilies[s].count; ++c)
-                t[s][c] = make_affine(static_cast<Split>(s), c);
-        return t;
-    }();
-    return table[static_cast<std::size_t>(split)][child];
-}
+const std::array<std::array<Affine, 4>, 8> kAffine = [] {
+    std::array<std::array<Affine, 4>, 8> table{};
+    for (std::size_t s = 1; s < kFamilies.size(); ++s)
+        for (int c = 0; c < kFamilies[s].count; ++c)
+            table[s][c] = make_affine(static_cast<Split>(s), c);
+    return table;
+}();
 
-// How far inside its patch a local point lies; negative outside.
-float margin(bool quad, Vec2 p) {
-    return quad ? std::min({p.x, 1 - p.x, p.y, 1 - p.y}) : std::min({p.x, p.y, 1 - p.x - p.y});
+const Affine& affine(Split split, int child) {
+    return kAffine[static_cast<std::size_t>(split)][child];
 }
 
 }  // namespace
@@ -74,16 +68,28 @@ std::span<const Node, 4> child_corners(Split split, int child) {
 }
 
 int child_at(Split split, Vec2 local) {
-    int best = 0;
-    float best_margin = -kInfinity;
-    for (int child = 0; child < family(split).count; ++child) {
-        const float m = margin(divides_quad(split), to_child(split, child, local));
-        if (m > best_margin) {
-            best = child;
-            best_margin = m;
-        }
+    const float s = local.x, t = local.y;
+    const float r = 1 - s - t;  // weight of a triangle's corner 0
+    switch (split) {
+        case Split::quad_in_four:
+            return t <= 0.5f ? (s <= 0.5f ? 0 : 1) : (s <= 0.5f ? 3 : 2);
+        case Split::quad_across_s:
+            return s <= 0.5f ? 0 : 1;
+        case Split::quad_across_t:
+            return t <= 0.5f ? 0 : 1;
+        case Split::triangle_in_four:
+            return r >= 0.5f ? 0 : s >= 0.5f ? 1 : t >= 0.5f ? 2 : 3;
+        case Split::triangle_edge_01:
+            return r >= s ? 0 : 1;
+        case Split::triangle_edge_12:
+            return s >= t ? 0 : 1;
+        case Split::triangle_edge_20:
+            return t >= r ? 0 : 1;
+        case Split::none:
+            break;
     }
-    return best;
+    check(false, "child_at: a leaf has no children");
+    return 0;
 }
 
 Vec2 to_child(Split split, int child, Vec2 local) {
@@ -98,10 +104,12 @@ Vec2 to_parent(Split split, int child, Vec2 local) {
 }
 
 Vec2 node_place(bool quad, Node node) {
-    constexpr std::array<Vec2, 9> on_quad = {Vec2(0, 0),   {1, 0}, {1, 1},   {0, 1},    {0.5f, 0},
-                                             {1, 0.5f}, {0.5f, 1}, {0, 0.5f}, {0.5f, 0.5f}};
-    constexpr std::array<Vec2, 7> on_triangle = {Vec2(0, 0),   {1, 0}, {0, 1}, {0, 0},
-                                                 {0.5f, 0}, {0.5f, 0.5f}, {0, 0.5f}};
+    constexpr std::array<Vec2, 9> on_quad = {Vec2(0, 0),    Vec2(1, 0),    Vec2(1, 1),
+                                             Vec2(0, 1),    Vec2(0.5f, 0), Vec2(1, 0.5f),
+                                             Vec2(0.5f, 1), Vec2(0, 0.5f), Vec2(0.5f, 0.5f)};
+    constexpr std::array<Vec2, 7> on_triangle = {Vec2(0, 0),    Vec2(1, 0),       Vec2(0, 1),
+                                                 Vec2(0, 0),    // a triangle has no corner 3
+                                                 Vec2(0.5f, 0), Vec2(0.5f, 0.5f), Vec2(0, 0.5f)};
     check(node < (quad ? on_quad.size() : on_triangle.size()), "node_place: no such node");
     return quad ? on_quad[node] : on_triangle[node];
 }

@@ -37,7 +37,7 @@ int child_count(Split split);
 /// Nodes of a child's corners, counter-clockwise as its parent's; the fourth is kNoNode on a triangle.
 std::span<const Node, 4> child_corners(Split split, int child);
 
-/// The child that holds the parent's local point; on a border, the first of those that share it.
+/// The child that holds the parent's local point; on a border, one of those that share it.
 int child_at(Split split, Vec2 local);
 
 /// From a parent's local coordinates to a child's, and back. Both are affine and exact to rounding.

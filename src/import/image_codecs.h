@@ -1,0 +1,25 @@
+// The decoders and encoders behind image_file.h, one a file format: bytes in memory to pixels and
+// back. `where` names the picture in Errors.
+#pragma once
+
+#include "import/image_file.h"
+
+namespace chiaro {
+
+/// Throws an Error at `where` unless a picture of this size and `bytes_per_pixel` may be decoded.
+void check_image_size(std::uint64_t width, std::uint64_t height, std::uint64_t bytes_per_pixel,
+                      const std::string& where);
+
+bool is_png(std::span<const std::uint8_t> bytes);
+Texture decode_png(std::span<const std::uint8_t> bytes, const std::string& where);
+Image decode_png_linear(std::span<const std::uint8_t> bytes, const std::string& where);
+std::string encode_png(const Image& image, const std::string& where);
+
+bool is_jpeg(std::span<const std::uint8_t> bytes);
+Texture decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& where);
+
+bool is_exr(std::span<const std::uint8_t> bytes);
+Image decode_exr(const std::string& bytes, const std::string& where);
+std::string encode_exr(const Image& image, ExrDepth depth, const std::string& where);
+
+}  // namespace chiaro

@@ -1,0 +1,299 @@
+#include "import/read_obj.h"
+
+#include "import/fault.h"
+#include "import/obj_geometry.h"
+#include "import/read_mtl.h"
+#include "import/text_lines.h"
+#include "import/unique_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <set>
+
+namespace chiaro {
+namespace {
+
+// More faces or corners than this do not fit the indices of a mesh, or any use.
+constexpr std::size_t kMaxCorners = 400'000'000;
+
+// The largest index of a kind that a face names, to be held against the list at the end of the
+// file: a face may come before the points that it names.
+struct LargestIndex {
+    std::int64_t index = -1;
+    std::uint32_t line = 0;
+};
+
+class ObjReader {
+public:
+    explicit ObjReader(const SceneFile& file)
+        : file_(file), lines_(file.bytes, file.where), materials_(scene_, file.folder) {}
+
+    Scene read() {
+        while (lines_.next()) read_statement();
+        check_indices();
+        if (faces_ == 0 && curves_line_ > 0)
+            throw Error(lines_.where(curves_line_), "curved surfaces are not supported yet",
+                        "export the scene as polygons");
+        if (faces_ == 0) throw Error(file_.where, "there is no face in the file");
+        make_objects();
+        add_warnings();
+        return std::move(scene_);
+    }
+
+private:
+    void read_statement() {
+        const std::string_view key = lines_.word();
+        if (key == "v")
+            read_position();
+        else if (key == "vt")
+            read_texture_coordinates();
+        else if (key == "vn")
+            read_normal();
+        else if (key == "f" || key == "fo")
+            read_face();
+        else if (key == "o" || key == "g")
+            begin_part(key == "o");
+        else if (key == "usemtl")
+            use_material(std::string(lines_.remainder()));
+        else if (key == "mtllib")
+            read_libraries(std::string(lines_.remainder()));
+        else
+            note_other(key);
+    }
+
+    void note_other(std::string_view key) {
+        static const std::set<std::string_view> kCurved = {
+            "cstype", "deg",  "bmat", "step", "curv", "curv2", "surf", "vp",  "parm", "trim",
+            "hole",   "scrv", "sp",   "end",  "con",  "bzp",   "bsp",  "cdc", "cdp"};
+        static const std::set<std::string_view> kSilent = {
+            "s",         "mg",    "bevel", "c_interp", "d_interp", "lod", "shadow_obj",
+            "trace_obj", "ctech", "stech", "usemap",   "maplib",   "t",   "res"};
+        if (kCurved.contains(key)) {
+            if (curves_line_ == 0) curves_line_ = lines_.number();
+        } else if (key == "l" || key == "p") {
+            ++points_and_lines_;
+        } else if (!kSilent.contains(key) && unknown_.size() < 8) {
+            unknown_.insert(printable(key));
+        }
+    }
+
+    void read_position() {
+        Vec3 position;
+        position.x = lines_.number_word("x");
+        position.y = lines_.number_word("y");
+        position.z = lines_.number_word("z");
+        std::array<float, 4> more;  // w; r g b; r g b a
+        std::size_t count = 0;
+        while (count < more.size()) {
+            const std::optional<float> value = lines_.optional_number("v");
+            if (!value) break;
+            more[count++] = *value;
+        }
+        if (count >= 3) {
+            geometry_.colors.resize(geometry_.v.size(), Vec3(1));
+            geometry_.colors.push_back(
+                glm::clamp(Vec3(more[0], more[1], more[2]), Vec3(0), Vec3(1)));
+        } else if (!geometry_.colors.empty()) {
+            geometry_.colors.emplace_back(1);
+        }
+        geometry_.v.push_back(position);
+    }
+
+    void read_texture_coordinates() {
+        const float u = lines_.number_word("u");
+        geometry_.vt.emplace_back(u, lines_.optional_number("v").value_or(0));
+    }
+
+    void read_normal() {
+        const float x = lines_.number_word("x"), y = lines_.number_word("y");
+        const glm::dvec3 normal(x, y, lines_.number_word("z"));
+        const double length = glm::length(normal);
+        geometry_.vn.push_back(length > 0 ? Vec3(normal / length) : Vec3(0));
+    }
+
+    // A position in a list from what a face says: from 1, or from its end so far if negative.
+    std::uint32_t read_index(std::string_view digits, std::size_t count, LargestIndex& largest,
+                             std::string_view corner) {
+        std::int64_t index = 0;
+        if (digits.starts_with('+')) digits.remove_prefix(1);
+        const auto [end, status] =
+            std::from_chars(digits.data(), digits.data() + digits.size(), index);
+        if (status != std::errc() || end != digits.data() + digits.size())
+            lines_.refuse(fmt::format("\"{}\" is not a corner of a face", printable(corner)));
+        if (index == 0)
+            lines_.refuse(fmt::format("corner \"{}\": indices count from 1", printable(corner)));
+        const std::int64_t position =
+            index > 0 ? index - 1 : static_cast<std::int64_t>(count) + index;
+        if (position < 0 || position >= std::int64_t{0xffff'ffff})
+            lines_.refuse(
+                fmt::format("corner \"{}\": there are {} before it", printable(corner), count));
+        if (position > largest.index) largest = {position, lines_.number()};
+        return static_cast<std::uint32_t>(position);
+    }
+
+    // v, v/vt, v//vn or v/vt/vn.
+    ObjCorner read_corner(std::string_view text) {
+        std::array<std::string_view, 3> fields;
+        std::string_view rest = text;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t slash = rest.find('/');
+            fields[i] = rest.substr(0, slash);
+            if (slash == rest.npos) {
+                rest = {};
+                break;
+            }
+            rest.remove_prefix(slash + 1);
+            if (i == 2) lines_.refuse(fmt::format("\"{}\" is not a corner", printable(text)));
+        }
+        ObjCorner corner;
+        corner.v = read_index(fields[0], geometry_.v.size(), largest_v_, text);
+        if (!fields[1].empty())
+            corner.vt = read_index(fields[1], geometry_.vt.size(), largest_vt_, text);
+        if (!fields[2].empty())
+            corner.vn = read_index(fields[2], geometry_.vn.size(), largest_vn_, text);
+        return corner;
+    }
+
+    void read_face() {
+        const std::size_t first = geometry_.corners.size();
+        for (std::string_view text = lines_.word(); !text.empty(); text = lines_.word())
+            geometry_.corners.push_back(read_corner(text));
+        const std::size_t count = geometry_.corners.size() - first;
+        if (count < 3)
+            lines_.refuse(fmt::format("a face needs at least 3 corners and has {}", count));
+        if (geometry_.corners.size() > kMaxCorners) lines_.refuse("there are too many faces");
+        if (material_ == MaterialId::none) material_ = materials_.fallback();
+        current_part().faces.push_back({static_cast<std::uint32_t>(first),
+                                        static_cast<std::uint32_t>(count), material_,
+                                        lines_.number()});
+        ++faces_;
+    }
+
+    void begin_part(bool is_object) {
+        std::string name;
+        for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word())
+            name += (name.empty() ? "" : " ") + std::string(word);
+        if (is_object) {
+            object_ = name;
+            group_.clear();
+        } else {
+            group_ = name;
+        }
+        part_ = kNoPart;
+    }
+
+    // The part that `o` and `g` name: "object", "group" or "object/group".
+    ObjPart& current_part() {
+        if (part_ == kNoPart) {
+            const bool joined = !object_.empty() && !group_.empty() && object_ != group_;
+            const std::string name =
+                joined ? object_ + "/" + group_ : (object_.empty() ? group_ : object_);
+            const auto [known, fresh] = part_of_.try_emplace(name, geometry_.parts.size());
+            if (fresh) geometry_.parts.push_back({name, {}});
+            part_ = known->second;
+        }
+        return geometry_.parts[part_];
+    }
+
+    void use_material(const std::string& name) {
+        material_ = materials_.find(name);
+        if (material_ != MaterialId::none) return;
+        material_ = materials_.fallback();
+        if (missing_materials_.insert(name).second)
+            warn(fmt::format("material \"{}\" is not defined; grey takes its place",
+                             printable(name)));
+    }
+
+    // Names with spaces in them look like several: the whole is tried first.
+    void read_libraries(const std::string& names) {
+        std::error_code ignored;
+        const auto exists = [&](const std::string& name) {
+            return std::filesystem::is_regular_file(
+                resolve_beside(file_.folder, name, lines_.where()), ignored);
+        };
+        std::string all = names;
+        std::ranges::replace(all, '\\', '/');
+        if (all.empty()) lines_.refuse("mtllib names no file");
+        if (exists(all)) return materials_.read(all, lines_.where());
+
+        for (std::size_t start = 0; start < all.size();) {
+            const std::size_t end = std::min(all.find_first_of(" \t", start), all.size());
+            const std::string name = all.substr(start, end - start);
+            start = std::min(all.find_first_not_of(" \t", end), all.size());
+            if (exists(name))
+                materials_.read(name, lines_.where());
+            else
+                warn(fmt::format("there is no file \"{}\" of materials", printable(name)));
+        }
+    }
+
+    void check_indices() const {
+        const auto check_kind = [&](const LargestIndex& largest, std::size_t count,
+                                    const char* kind) {
+            if (largest.index >= static_cast<std::int64_t>(count))
+                throw Error(lines_.where(largest.line),
+                            fmt::format("a face names {} {}, but there are {}", kind,
+                                        largest.index + 1, count));
+        };
+        check_kind(largest_v_, geometry_.v.size(), "v");
+        check_kind(largest_vt_, geometry_.vt.size(), "vt");
+        check_kind(largest_vn_, geometry_.vn.size(), "vn");
+    }
+
+    void make_objects() {
+        if (!geometry_.colors.empty()) geometry_.colors.resize(geometry_.v.size(), Vec3(1));
+        UniqueNames object_name, material_name;
+        for (ObjPart& part : geometry_.parts) {
+            part.name = object_name(part.name, "object");
+            scene_.objects.push_back(
+                {part.name, static_cast<MeshId>(scene_.meshes.size()), Mat4(1)});
+            scene_.meshes.push_back(make_mesh(geometry_, part, file_.where));
+        }
+        for (Material& material : scene_.materials)
+            material.name = material_name(material.name, "material");
+    }
+
+    void warn(const std::string& what) { scene_.warnings.push_back(lines_.where() + ": " + what); }
+
+    void add_warnings() {
+        const auto add = [&](const std::string& what) {
+            scene_.warnings.push_back(file_.where + ": " + what);
+        };
+        if (curves_line_ > 0)
+            scene_.warnings.push_back(lines_.where(curves_line_) +
+                                      ": curved surfaces are not supported yet and were left out");
+        if (points_and_lines_ > 0) add("points and lines were left out");
+        for (const std::string& key : unknown_)
+            add(fmt::format("statements \"{}\" are unknown and were left out", key));
+    }
+
+    static constexpr std::size_t kNoPart = static_cast<std::size_t>(-1);
+
+    const SceneFile& file_;
+    TextLines lines_;
+    Scene scene_;
+    MtlMaterials materials_;
+    ObjGeometry geometry_;
+    std::string object_, group_;
+    std::size_t part_ = kNoPart;
+    std::unordered_map<std::string, std::size_t> part_of_;
+    MaterialId material_ = MaterialId::none;
+    LargestIndex largest_v_, largest_vt_, largest_vn_;
+    std::size_t faces_ = 0;
+    std::uint32_t curves_line_ = 0;  // the first statement of a curve or surface; 0: none
+    std::size_t points_and_lines_ = 0;
+    std::set<std::string> unknown_, missing_materials_;
+};
+
+}  // namespace
+
+Scene read_obj(const SceneFile& file) {
+    return ObjReader(file).read();
+}
+
+}  // namespace chiaro

@@ -1,0 +1,175 @@
+#include "rays/embree_scene.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "rays/filter.h"
+#include "scene/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace chiaro {
+namespace {
+
+bool any_see_through(const Mesh& mesh, const Scene& scene) {
+    return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& p) {
+        return scene.material(p.material).see_through();
+    });
+}
+
+bool shows_something(const Scene& scene, const Object& object) {
+    return object.mesh != MeshId::none && !scene.mesh_of(object).primitives.empty();
+}
+
+const char* name_of(RTCError error) {
+    switch (error) {
+        case RTC_ERROR_NONE:
+            return "no error";
+        case RTC_ERROR_OUT_OF_MEMORY:
+            return "out of memory";
+        case RTC_ERROR_UNSUPPORTED_CPU:
+            return "this processor is not supported";
+        case RTC_ERROR_INVALID_ARGUMENT:
+            return "invalid argument";
+        case RTC_ERROR_INVALID_OPERATION:
+            return "invalid operation";
+        case RTC_ERROR_CANCELLED:
+            return "cancelled";
+        case RTC_ERROR_UNKNOWN:
+            break;
+    }
+    return "unknown error";
+}
+
+}  // namespace
+
+EmbreeScene::EmbreeScene(const Scene& scene, int threads)
+    : arena_(std::clamp(threads, 1, hardware_threads())) {
+    device_ = rtcNewDevice(nullptr);
+    if (device_ == nullptr) throw Error("Embree", name_of(rtcGetDeviceError(nullptr)));
+    try {
+        arena_.execute([&] { build(scene); });
+    } catch (...) {
+        release();
+        throw;
+    }
+}
+
+void EmbreeScene::build(const Scene& scene) {
+    // A scene for each mesh that is shown; objects are instances of them.
+    meshes_.resize(scene.meshes.size(), nullptr);
+    for (const Object& object : scene.objects)
+        if (shows_something(scene, object) && meshes_[index_of(object.mesh)] == nullptr)
+            build_mesh(object.mesh, scene);
+
+    top_ = rtcNewScene(device_);
+    rtcSetSceneBuildQuality(top_, RTC_BUILD_QUALITY_MEDIUM);
+    objects_.resize(scene.objects.size());
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        if (!shows_something(scene, scene.objects[i])) continue;
+        Instance& instance = objects_[i];
+        instance.quad_count = scene.mesh_of(scene.objects[i]).quad_count;
+        instance.geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(instance.geometry, meshes_[index_of(scene.objects[i].mesh)]);
+        place(scene, i);
+        rtcAttachGeometryByID(top_, instance.geometry, static_cast<unsigned>(i));
+        rtcReleaseGeometry(instance.geometry);  // the scene keeps it
+    }
+    rtcCommitScene(top_);
+    check_device("building the scene");
+}
+
+EmbreeScene::~EmbreeScene() {
+    release();
+}
+
+void EmbreeScene::release() {
+    if (top_ != nullptr) rtcReleaseScene(top_);
+    for (RTCScene mesh : meshes_)
+        if (mesh != nullptr) rtcReleaseScene(mesh);
+    if (device_ != nullptr) rtcReleaseDevice(device_);
+}
+
+void EmbreeScene::build_mesh(MeshId id, const Scene& scene) {
+    const Mesh& mesh = scene.meshes[index_of(id)];
+    RTCScene mesh_scene = rtcNewScene(device_);
+    meshes_[index_of(id)] = mesh_scene;
+    rtcSetSceneBuildQuality(mesh_scene, RTC_BUILD_QUALITY_MEDIUM);
+
+    // A copy, padded: Embree reads 16 bytes at the last point. Quads and triangles share it.
+    const std::size_t bytes = mesh.positions.size() * sizeof(Vec3);
+    RTCBuffer positions = rtcNewBuffer(device_, bytes + 16);
+    check_device("allocating points");
+    std::memcpy(rtcGetBufferData(positions), mesh.positions.data(), bytes);
+    if (mesh.quad_count > 0) attach(mesh_scene, positions, mesh, scene, true);
+    if (mesh.quad_count < mesh.primitives.size()) attach(mesh_scene, positions, mesh, scene, false);
+    rtcReleaseBuffer(positions);
+
+    rtcCommitScene(mesh_scene);
+    check_device("building a mesh");
+}
+
+void EmbreeScene::attach(RTCScene mesh_scene, RTCBuffer positions, const Mesh& mesh,
+                         const Scene& scene, bool quads) {
+    const std::uint32_t first = quads ? 0 : mesh.quad_count;
+    const std::size_t count = quads ? mesh.quad_count : mesh.primitives.size() - first;
+    RTCGeometry geometry =
+        rtcNewGeometry(device_, quads ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+    rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions, 0,
+                         sizeof(Vec3), mesh.positions.size());
+
+    // The corners are read where they stand in the scene's primitives.
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                               quads ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3, mesh.primitives.data(),
+                               first * sizeof(Primitive), sizeof(Primitive), count);
+    if (any_see_through(mesh, scene)) {
+        filter_data_.push_back(std::make_unique<FilterData>(FilterData{&scene, first}));
+        rtcSetGeometryUserData(geometry, filter_data_.back().get());
+        rtcSetGeometryIntersectFilterFunction(geometry, see_through_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, see_through_filter);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(mesh_scene, geometry, quads ? 0 : 1);
+    rtcReleaseGeometry(geometry);
+}
+
+void EmbreeScene::place(const Scene& scene, std::size_t object) {
+    Instance& instance = objects_[object];
+    const Mat4& m = scene.objects[object].to_world;
+    instance.normal_matrix = normal_matrix(m);
+    rtcSetGeometryTransform(instance.geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m[0][0]);
+    rtcCommitGeometry(instance.geometry);
+
+    // A box round the turned box of the mesh is no smaller than the object.
+    RTCBounds box;
+    rtcGetSceneBounds(meshes_[index_of(scene.objects[object].mesh)], &box);
+    const Vec3 low(box.lower_x, box.lower_y, box.lower_z);
+    const Vec3 high(box.upper_x, box.upper_y, box.upper_z);
+    instance.extent = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 local(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                         corner & 4 ? high.z : low.z);
+        const Vec3 p = glm::abs(Vec3(m * Vec4(local, 1)));
+        instance.extent = std::max({instance.extent, p.x, p.y, p.z});
+    }
+}
+
+void EmbreeScene::set_transform(const Scene& scene, ObjectId object) {
+    check(index_of(object) < objects_.size(), "set_transform: unknown object");
+    if (objects_[index_of(object)].geometry == nullptr) return;
+    place(scene, index_of(object));
+    arena_.execute([&] { rtcCommitScene(top_); });
+    check_device("moving an object");
+}
+
+void EmbreeScene::check_device(const char* what) const {
+    const RTCError error = rtcGetDeviceError(device_);
+    if (error != RTC_ERROR_NONE)
+        throw Error("Embree", std::string(what) + ": " + name_of(error),
+                    error == RTC_ERROR_OUT_OF_MEMORY ? "use a smaller scene" : "");
+}
+
+}  // namespace chiaro

@@ -1,0 +1,103 @@
+#include "sample_renderer/direct_light.h"
+
+#include "sample_renderer/warp.h"
+
+namespace chiaro {
+namespace {
+
+constexpr std::uint32_t kLightSamplesPerRay = 8;
+
+// Which of a replicate's every eight samples traces the ray: a random one, so that any range of
+// samples is unbiased, and any range that holds whole eights has exactly its share.
+bool traces_ray(std::uint32_t seed, std::uint32_t replicate, std::uint32_t index) {
+    const std::uint32_t block = index / kLightSamplesPerRay;
+    const std::uint32_t turn = hash32(hash32(seed, 0x7a1eU + replicate), block) >> 16;
+    return index % kLightSamplesPerRay == turn % kLightSamplesPerRay;
+}
+
+bool few_punctual_lights(const LitScene& lit) {
+    return lit.scene.lights.size() <= kMostExactLights;
+}
+
+void add_area_light_sample(const LitScene& lit, const Receiver& receiver, const Sequence& sequence,
+                           std::uint32_t sample, ShadowBatch& shadows) {
+    const auto connection = connect_area_light(lit, receiver, sequence.number(sample, kLightChoice),
+                                               sequence.pair(sample, kLightPlace));
+    if (!connection) return;
+    const float of_light = kLightSamplesPerRay * connection->pdf_solid_angle;
+    const float weight = of_light / (of_light + connection->pdf_cosine);
+    shadows.add(connection->shadow_ray, connection->irradiance * weight, sample % kReplicates);
+}
+
+void add_punctual_sample(const LitScene& lit, const Receiver& receiver, const Sequence& sequence,
+                         std::uint32_t sample, ShadowBatch& shadows) {
+    const auto choice = lit.choice.sample_punctual(sequence.number(sample, kLightChoice));
+    const auto connection = connect_punctual(lit, receiver, choice.punctual);
+    if (!connection) return;
+    shadows.add(connection->shadow_ray, connection->irradiance / choice.probability,
+                sample % kReplicates);
+}
+
+void add_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t replicate,
+             std::uint32_t block, PathWave& wave) {
+    const Vec3 direction = sample_receiving_cosine(
+        receiver, sequence.sparse_pair(replicate, block, kLightDirection));
+    wave.add({receiver.origin, direction},
+             {.pdf = pdf_receiving_cosine(receiver, direction), .slot = replicate});
+}
+
+// Emission that the cosine-distributed rays met. Each stands for kLightSamplesPerRay samples.
+void settle_rays(const LitScene& lit, PathWave& wave, std::span<Rgb, kReplicates> sums) {
+    wave.hits.resize(wave.rays.size());
+    lit.caster.intersect(wave.rays, wave.hits);
+    for (std::size_t i = 0; i < wave.rays.size(); ++i) {
+        if (!wave.hits[i]) continue;
+        const Rgb radiance = emission(lit.scene, wave.hits[i].point, wave.hits[i].front);
+        if (radiance == Rgb(0)) continue;
+        const Path& path = wave.paths[i];
+        const float of_light =
+            kLightSamplesPerRay * pdf_area_light(lit, wave.hits[i], wave.rays[i].direction);
+        sums[path.slot] +=
+            radiance * (kPi * kLightSamplesPerRay * path.pdf / (of_light + path.pdf));
+    }
+}
+
+}  // namespace
+
+Rgb exact_direct_light(const LitScene& lit, const Receiver& receiver, PathWave& scratch) {
+    Rgb sum(0);
+    if (!few_punctual_lights(lit)) return sum;
+    scratch.shadows.clear();
+    for (int i = 0; i < static_cast<int>(lit.scene.lights.size()); ++i)
+        if (const auto connection = connect_punctual(lit, receiver, i))
+            scratch.shadows.add(connection->shadow_ray, connection->irradiance, 0);
+    scratch.shadows.settle(lit.caster, {&sum, 1});
+    return sum;
+}
+
+bool direct_light_is_exact(const LitScene& lit) {
+    return lit.area_lights.empty() && (few_punctual_lights(lit) || !lit.choice.any_punctual());
+}
+
+void add_direct_samples(const LitScene& lit, const Receiver& receiver, std::uint32_t seed,
+                        std::uint32_t first, std::uint32_t count, PathWave& scratch,
+                        std::span<Rgb, kReplicates> sums) {
+    const Sequence sequence(seed);
+    scratch.clear();
+    if (!lit.area_lights.empty()) {
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            add_area_light_sample(lit, receiver, sequence, i, scratch.shadows);
+            const std::uint32_t replicate = i % kReplicates;
+            const std::uint32_t index = i / kReplicates;
+            if (traces_ray(seed, replicate, index))
+                add_ray(receiver, sequence, replicate, index / kLightSamplesPerRay, scratch);
+        }
+        settle_rays(lit, scratch, sums);
+    }
+    if (!few_punctual_lights(lit) && lit.choice.any_punctual())
+        for (std::uint32_t i = first; i < first + count; ++i)
+            add_punctual_sample(lit, receiver, sequence, i, scratch.shadows);
+    scratch.shadows.settle(lit.caster, sums);
+}
+
+}  // namespace chiaro

@@ -1,0 +1,58 @@
+#include "sample_renderer/indirect_light.h"
+
+#include "sample_renderer/warp.h"
+
+namespace chiaro {
+namespace {
+
+// One cosine-distributed ray a sample. Cosine over density is pi, which is the path's throughput.
+void start_paths(const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
+                 std::uint32_t count, PathWave& wave) {
+    const Sequence sequence(seed);
+    wave.clear();
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        wave.add({receiver.origin,
+                  sample_receiving_cosine(receiver, sequence.pair(i, kFirstDirection))},
+                 {.slot = i % kReplicates,
+                  .key = sample_key(seed, i),
+                  .light_place = sequence.pair(i, kFirstLightPlace),
+                  .light_choice = sequence.number(i, kFirstLightChoice)});
+    }
+}
+
+RayCount count_inside(const OpenSides& open_sides, std::span<const Hit> hits) {
+    RayCount count;
+    for (const Hit& hit : hits) {
+        ++count.shot;
+        if (hit && open_sides.is_inside(hit.point.object, hit.point.primitive, hit.front))
+            ++count.inside;
+    }
+    return count;
+}
+
+}  // namespace
+
+RayCount add_indirect_samples(const LitScene& lit, const OpenSides* open_sides,
+                              const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
+                              std::uint32_t count, PathWave& scratch,
+                              std::span<Rgb, kReplicates> sums) {
+    start_paths(receiver, seed, first, count, scratch);
+    scratch.hits.resize(scratch.rays.size());
+    lit.caster.intersect(scratch.rays, scratch.hits);
+    const RayCount rays = open_sides ? count_inside(*open_sides, scratch.hits) : RayCount{};
+
+    std::array<Rgb, kReplicates> radiance = {};
+    follow(lit, scratch, FirstEmission::skipped, radiance);
+    for (std::uint32_t r = 0; r < kReplicates; ++r) sums[r] += kPi * radiance[r];
+    return rays;
+}
+
+RayCount probe(const LitScene& lit, const OpenSides& open_sides, const Receiver& receiver,
+               std::uint32_t seed, std::uint32_t count, PathWave& scratch) {
+    start_paths(receiver, seed, 0, count, scratch);
+    scratch.hits.resize(scratch.rays.size());
+    lit.caster.intersect(scratch.rays, scratch.hits);
+    return count_inside(open_sides, scratch.hits);
+}
+
+}  // namespace chiaro

@@ -1,0 +1,72 @@
+#include "sample_renderer/next_event.h"
+
+#include "sample_renderer/warp.h"
+
+#include <cmath>
+
+namespace chiaro {
+
+Receiver make_receiver(const RayCaster& caster, ObjectId object, Vec3 position,
+                       Vec3 geometric_normal, Vec3 shading_normal) {
+    const float lift = caster.offset(position, object);
+    return {position, position + lift * geometric_normal, geometric_normal, shading_normal};
+}
+
+Vec3 sample_receiving_cosine(const Receiver& receiver, Vec2 u) {
+    const Vec3 w = Frame(receiver.shading_normal).to_world(square_to_cosine_hemisphere(u));
+    return glm::dot(receiver.geometric_normal, w) > 0 ? w : mirrored(receiver, w);
+}
+
+float pdf_receiving_cosine(const Receiver& receiver, Vec3 w) {
+    return receiving_cosine(receiver, w) * (1 / kPi);
+}
+
+std::optional<LightConnection> connect_area_light(const LitScene& lit, const Receiver& receiver,
+                                                  float choice, Vec2 place) {
+    const AreaLightSample sample = lit.area_lights.sample(choice, place);
+    const Vec3 between = sample.position - receiver.position;
+    const float squared = glm::dot(between, between);
+    if (!(squared > 0)) return std::nullopt;
+    const Vec3 to_light = between * (1.0f / std::sqrt(squared));
+    const float cosine = receiving_cosine(receiver, to_light);
+    const float signed_light_cosine = -glm::dot(sample.normal, to_light);
+    const float light_cosine = std::abs(signed_light_cosine);
+    if (cosine <= 0 || light_cosine <= 0) return std::nullopt;
+    const Rgb radiance = lit.area_lights.eval(sample, -to_light);
+    if (radiance == Rgb(0)) return std::nullopt;
+
+    // The shadow ray ends as far off the light as it starts off the receiver.
+    const float lift = lit.caster.offset(sample.position, sample.point.object);
+    const Vec3 end = sample.position + std::copysign(lift, signed_light_cosine) * sample.normal;
+
+    LightConnection connection;
+    connection.shadow_ray = {receiver.origin, end - receiver.origin, 0, 1};
+    connection.pdf_solid_angle = sample.pdf_area * squared / light_cosine;
+    connection.pdf_cosine = cosine * (1 / kPi);
+    connection.irradiance = radiance * (cosine / connection.pdf_solid_angle);
+    return connection;
+}
+
+std::optional<LightConnection> connect_punctual(const LitScene& lit, const Receiver& receiver,
+                                                int index) {
+    const PunctualLight& light = lit.scene.lights[index];
+    const std::optional<PunctualArrival> found = arrival(light, receiver.position);
+    if (!found || found->irradiance == Rgb(0)) return std::nullopt;
+    const float cosine = receiving_cosine(receiver, found->to_light);
+    if (cosine <= 0) return std::nullopt;
+
+    LightConnection connection;
+    connection.irradiance = found->irradiance * cosine;
+    connection.shadow_ray = light.kind == LightKind::directional
+                                ? Ray{receiver.origin, found->to_light}
+                                : Ray{receiver.origin, light.position - receiver.origin, 0, 1};
+    return connection;
+}
+
+float pdf_area_light(const LitScene& lit, const Hit& hit, Vec3 direction) {
+    const float pdf_area = lit.area_lights.pdf(hit.point.object, hit.point.primitive);
+    const float cosine = std::abs(glm::dot(hit.normal, direction));
+    return cosine > 0 ? pdf_area * hit.t * hit.t / cosine : 0.0f;
+}
+
+}  // namespace chiaro

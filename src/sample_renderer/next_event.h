@@ -1,0 +1,68 @@
+// Next event estimation: the light that one point gets from one point of a light, and the ray that
+// tells whether anything is in between.
+#pragma once
+
+#include "rays/ray_caster.h"
+#include "sample_renderer/light_choice.h"
+
+namespace chiaro {
+
+/// All that light transport reads; valid while what it names is.
+struct LitScene {
+    const Scene& scene;
+    const RayCaster& caster;
+    const AreaLights& area_lights;
+    LightChoice choice;
+};
+
+/// A surface point from the side that light arrives on.
+struct Receiver {
+    Vec3 position;          // on the surface
+    Vec3 origin;            // lifted off it: where rays start
+    Vec3 geometric_normal;  // both unit, on the receiving side
+    Vec3 shading_normal;
+};
+Receiver make_receiver(const RayCaster& caster, ObjectId object, Vec3 position,
+                       Vec3 geometric_normal, Vec3 shading_normal);
+
+/// `w` mirrored at the receiver's real plane.
+inline Vec3 mirrored(const Receiver& receiver, Vec3 w) {
+    return w - 2 * glm::dot(receiver.geometric_normal, w) * receiver.geometric_normal;
+}
+
+/// What light from unit direction `w` counts for in irradiance: the cosine about the shading normal.
+/// The part of its hemisphere that lies below the real plane is folded up, so that the whole
+/// is pi on any surface and no light is lost where normals are interpolated; 0 below that plane.
+inline float receiving_cosine(const Receiver& receiver, Vec3 w) {
+    if (glm::dot(receiver.geometric_normal, w) <= 0) return 0;
+    return std::max(0.0f, glm::dot(receiver.shading_normal, w)) +
+           std::max(0.0f, glm::dot(receiver.shading_normal, mirrored(receiver, w)));
+}
+
+/// A direction of density receiving_cosine() / pi over solid angle; `u` in [0, 1)^2.
+Vec3 sample_receiving_cosine(const Receiver& receiver, Vec2 u);
+float pdf_receiving_cosine(const Receiver& receiver, Vec3 w);
+
+/// A sample of the light at a receiver, before it is known whether it is blocked.
+struct LightConnection {
+    Ray shadow_ray;
+    Rgb irradiance;  // the sample's estimate: over the density with which it was chosen
+    float pdf_solid_angle =
+        0;                 // of the direction, by area sampling; 0: no other technique finds it
+    float pdf_cosine = 0;  // of the direction, by sampling the cosine at the receiver
+};
+
+/// A point of the area lights; nothing if it cannot shine on the receiver. `choice` and `place` as
+/// AreaLights::sample() has them. Checks: there are area lights.
+std::optional<LightConnection> connect_area_light(const LitScene& lit, const Receiver& receiver,
+                                                  float choice, Vec2 place);
+
+/// Punctual light `index`; nothing if it cannot shine on the receiver.
+std::optional<LightConnection> connect_punctual(const LitScene& lit, const Receiver& receiver,
+                                                int index);
+
+/// Density over solid angle with which connect_area_light() takes the direction in which a ray of
+/// unit direction left `t` behind and met `hit`.
+float pdf_area_light(const LitScene& lit, const Hit& hit, Vec3 direction);
+
+}  // namespace chiaro

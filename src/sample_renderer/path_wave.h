@@ -1,0 +1,55 @@
+// Paths that advance together, bounce by bounce: every ray of a bounce goes to the caster in one
+// call, in packets of 16, and paths that ended make room (Laine et al. 2013's wavefront, on a CPU).
+#pragma once
+
+#include "sample_renderer/next_event.h"
+
+namespace chiaro {
+
+/// One path under way; its ray and hit stand at the same place in the wave's arrays.
+struct Path {
+    Rgb throughput = Rgb(1);
+    float pdf = 0;           // of the ray's direction over solid angle, for the weight of emission
+    std::uint32_t slot = 0;  // which sum it adds to
+    std::uint32_t key = 0;   // names its random numbers after the first hit's
+    Vec2 light_place = {};   // at the first hit
+    float light_choice = 0;
+};
+
+/// Shadow rays on the way, and what each brings to which sum if nothing blocks it.
+struct ShadowBatch {
+    std::vector<Ray> rays;
+    std::vector<Rgb> values;
+    std::vector<std::uint32_t> slots;
+    std::vector<std::uint8_t> blocked;
+
+    void clear();
+    void add(const Ray& ray, Rgb value, std::uint32_t slot);
+    /// Casts all rays, adds what arrives to sums[slot], and clears.
+    void settle(const RayCaster& caster, std::span<Rgb> sums);
+};
+
+/// A wave and its scratch memory; reuse it, so that nothing is allocated in the inner loop. Paths
+/// are independent of each other, but a hit's last bits may depend on who shares a packet: what
+/// must be reproducible by itself needs a wave of its own.
+struct PathWave {
+    std::vector<Ray> rays;  // directions of unit length
+    std::vector<Hit> hits;  // as many as rays, once cast; before that anything
+    std::vector<Path> paths;
+    ShadowBatch shadows;
+
+    void clear();
+    void add(const Ray& ray, const Path& path);
+};
+
+/// What a path takes of the light that the first surface it meets emits.
+enum class FirstEmission { skipped, counted };
+
+/// Follows all paths of the wave to their ends and adds the radiance that each finds along its
+/// first ray, times its throughput, to sums[slot]. The first hits must be in place: the caller
+/// casts the first rays, as they are of many kinds. Two-sided Lambertian reflection; next event
+/// estimation and emission met by chance are weighted by the balance heuristic (Veach and Guibas
+/// 1995); Russian roulette with survival up to 0.98, no other bound on the number of bounces.
+void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<Rgb> sums);
+
+}  // namespace chiaro

@@ -1,0 +1,30 @@
+// Radiance along single rays, by paths traced to their ends.
+#pragma once
+
+#include "sample_renderer/path_wave.h"
+
+namespace chiaro {
+
+/// How rays are sampled. Ray i of a call has random numbers of its own, named by (seed, i).
+struct RadianceSettings {
+    std::uint32_t seed = 0;
+    std::uint32_t first_sample = 0;
+    std::uint32_t samples = 1;  // paths a ray
+    int threads = 1;
+};
+
+/// Everything that light transport reads of a scene; all must outlive the result.
+LitScene make_lit_scene(const Scene& scene, const RayCaster& caster, const AreaLights& area_lights);
+
+/// Mean radiance that arrives along each ray, against its direction [cd/m2 a channel]; `result` has
+/// the length of `rays`. What the surface emits counts; a ray that meets nothing sees black. As a
+/// camera's, the rays pass single-sided faces from behind. The same bits on any number of threads.
+void radiance(const LitScene& lit, std::span<const Ray> rays, const RadianceSettings& settings,
+              std::span<Rgb> result);
+
+/// Sends camera rays on that met the back of a single-sided face; `rays` and `hits` belong together
+/// and are left so. `t` of a hit still counts from the ray's origin.
+void pass_single_sided_backs(const Scene& scene, const RayCaster& caster, std::span<Ray> rays,
+                             std::span<Hit> hits);
+
+}  // namespace chiaro

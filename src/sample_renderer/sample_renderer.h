@@ -1,0 +1,61 @@
+// BOX Sample Renderer (3.2): "any suitable global illumination algorithm" behind one call.
+#pragma once
+
+#include "scene/surface.h"
+
+#include <cstdint>
+#include <span>
+
+namespace chiaro {
+
+/// What part of the light a channel holds; all are irradiance [lux a colour channel].
+enum class Light : std::uint8_t {
+    direct,    // straight from lights
+    indirect,  // after at least one reflection
+    total,     // both: the single channel of the paper's scheme
+};
+
+/// Asks for more samples of one channel at one surface point.
+///
+/// Samples are numbered; a request covers [first_sample, first_sample + samples) of the point's own
+/// sequence, which `seed` names, so that asking in two parts or on two machines gives the same
+/// values.
+struct ShadeRequest {
+    SurfacePoint where = {};  // a little inside its patch; the renderer lifts it off the surface
+    bool front = true;        // which side of the surface
+    Light light = Light::direct;
+    std::uint32_t seed = 0;  // of the vertex and channel; equal seeds mean equal random numbers
+    std::uint32_t first_sample = 0;
+    std::uint32_t samples = 0;  // > 0, a multiple of kReplicates
+    std::uint32_t indirect_samples =
+        0;  // `total` only: `samples` go to direct light, these to indirect
+};
+
+/// Independently rotated copies of the sequence; sample i belongs to replicate i % kReplicates. The
+/// variance comes from how the replicates differ.
+inline constexpr std::uint32_t kReplicates = 4;
+
+/// Mean over the requested samples.
+struct ShadeResult {
+    Rgb mean = Rgb(0);      // irradiance [lux a channel]
+    Rgb variance = Rgb(0);  // of `mean` [lux^2 a channel], estimated from the replicates
+    bool buried = false;    // most rays met the inside of something: the point lies in a solid
+};
+
+/// Variance of the luminance of a mean whose channels have `variance`, taken as fully correlated:
+/// the channels of one path rise and fall together.
+inline float luminance_variance(Rgb variance) {
+    const float deviation = luminance(glm::sqrt(glm::max(variance, Rgb(0))));
+    return deviation * deviation;
+}
+
+/// The one seam. shade() may be called from the update thread only; it spreads its own work.
+class SampleRenderer {
+public:
+    virtual ~SampleRenderer() = default;
+    /// One result a request; both spans of one length. The same requests give the same bits, in any
+    /// batch and on any number of threads.
+    virtual void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) = 0;
+};
+
+}  // namespace chiaro

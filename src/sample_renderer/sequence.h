@@ -1,0 +1,79 @@
+// The random numbers of one seed: rotated Halton points for what every sample does first, hashes
+// for what few samples get to. Nothing but (seed, sample, dimension) decides a number.
+#pragma once
+
+#include "base/halton.h"
+#include "sample_renderer/sample_renderer.h"
+
+#include <array>
+#include <cmath>
+
+namespace chiaro {
+
+/// Uses of the Halton dimensions along a path, lowest bases to what matters most.
+enum PathDimension : int { kFirstDirection = 0, kFirstLightPlace = 2, kFirstLightChoice = 4 };
+
+/// Uses of the dimensions in direct light; the two direction numbers have a sequence of their own.
+enum DirectDimension : int { kLightPlace = 0, kLightChoice = 2, kLightDirection = 3 };
+
+/// The rotated Halton sequence of one seed, in kReplicates independent copies.
+class Sequence {
+public:
+    explicit Sequence(std::uint32_t seed) : table_(table()) {
+        for (std::uint32_t r = 0; r < kReplicates; ++r)
+            for (std::uint32_t d = 0; d < kDimensions; ++d)
+                rotations_[r][d] = to_unit_float(hash32(seed, 0x5eed'0000U + 16 * r + d));
+    }
+
+    /// Number of `sample` in `dimension`, in [0, 1).
+    float number(std::uint32_t sample, int dimension) const {
+        return rotated(sample % kReplicates, dimension, dimension, sample / kReplicates);
+    }
+    Vec2 pair(std::uint32_t sample, int dimension) const {
+        return {number(sample, dimension), number(sample, dimension + 1)};
+    }
+
+    /// Point `index` of the two lowest bases, with the rotations of `dimension` and the next: a
+    /// second sequence for what only some samples do, so that those few are spread well by
+    /// themselves.
+    Vec2 sparse_pair(std::uint32_t replicate, std::uint32_t index, int dimension) const {
+        return {rotated(replicate, 0, dimension, index),
+                rotated(replicate, 1, dimension + 1, index)};
+    }
+
+private:
+    static constexpr int kDimensions = 5;
+
+    float rotated(std::uint32_t replicate, int base, int dimension, std::uint32_t index) const {
+        const float point = index < kTableSize ? table_[base][index] : halton(base, index);
+        const float sum = point + rotations_[replicate][dimension];
+        return sum - std::floor(sum);  // rotate_unit() without its branch
+    }
+
+    // The first points once more, where they need no call.
+    static constexpr std::uint32_t kTableSize = 1024;
+    using Table = std::array<std::array<float, kTableSize>, kDimensions>;
+    static const Table& table();
+    const Table& table_;
+    std::array<std::array<float, kDimensions>, kReplicates> rotations_;
+};
+
+/// Names the numbers of one sample beyond the Halton dimensions.
+inline std::uint32_t sample_key(std::uint32_t seed, std::uint32_t sample) {
+    return hash32(hash32(seed, 0x9a7bU), sample);
+}
+/// The numbers of one sample at one bounce, in order.
+class BounceNumbers {
+public:
+    BounceNumbers(std::uint32_t key, std::uint32_t bounce) : state_(hash32(key, bounce)) {}
+    float next() { return to_unit_float(hash32(state_ += 0x9e37'79b9U)); }
+    Vec2 next_pair() {
+        const float first = next();
+        return {first, next()};
+    }
+
+private:
+    std::uint32_t state_;
+};
+
+}  // namespace chiaro

@@ -1,0 +1,148 @@
+#include "scene/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chiaro {
+namespace {
+
+// Half of a quad, or a triangle: its corners in the order of the winding.
+struct Half {
+    Vec3 a, b, c;
+    Vec3 cross() const { return glm::cross(b - a, c - a); }
+};
+
+Vec3 corner_position(const Mesh& mesh, const Primitive& primitive, int corner) {
+    return mesh.positions[primitive.corners[corner]];
+}
+
+Half half_of(const Mesh& mesh, const Primitive& primitive, const CornerWeights& w) {
+    return {corner_position(mesh, primitive, w.corners[0]),
+            corner_position(mesh, primitive, w.corners[1]),
+            corner_position(mesh, primitive, w.corners[2])};
+}
+
+// Where the squares might not be floats, as of a small triangle's normal, scaled first.
+Vec3 safe_normalize(Vec3 v, Vec3 otherwise) {
+    const float squared = glm::dot(v, v);
+    if (squared > 1e-30f && squared < 1e30f) return v * (1.0f / std::sqrt(squared));
+    const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (!(largest > 0)) return otherwise;
+    const Vec3 scaled = v / largest;
+    return scaled * (1.0f / std::sqrt(glm::dot(scaled, scaled)));
+}
+
+// The cross product of edges in object space, along the front side's normal. One half of a quad may
+// have no area; the other then speaks for both.
+Vec3 front_cross(const Mesh& mesh, const Primitive& primitive, const CornerWeights& w) {
+    const Vec3 cross = half_of(mesh, primitive, w).cross();
+    if (!primitive.is_quad() || cross != Vec3(0)) return cross;
+    const CornerWeights other = corner_weights(true, w.corners[0] == 0 ? 1.0f : 0.0f, 0.5f);
+    return half_of(mesh, primitive, other).cross();
+}
+
+template <typename T>
+T blend(const std::vector<T>& values, const Primitive& primitive, const CornerWeights& w) {
+    return w.weights[0] * values[primitive.corners[w.corners[0]]] +
+           w.weights[1] * values[primitive.corners[w.corners[1]]] +
+           w.weights[2] * values[primitive.corners[w.corners[2]]];
+}
+
+Vec4 texture_value(const Scene& scene, const TextureUse& use, const Mesh& mesh,
+                   const Primitive& primitive, const CornerWeights& w) {
+    const std::vector<Vec2>& uvs = mesh.uvs[use.uv_set & 1];
+    const Vec2 uv = uvs.empty() ? Vec2(0) : blend(uvs, primitive, w);
+    return sample_texture(scene.texture(use.texture), use.transform(uv));
+}
+
+}  // namespace
+
+CornerWeights corner_weights(bool is_quad, float u, float v) {
+    if (!is_quad) return {{0, 1, 2}, {1 - u - v, u, v}};
+    if (u + v <= 1) return {{0, 1, 3}, {1 - u - v, u, v}};
+    return {{2, 3, 1}, {u + v - 1, 1 - u, 1 - v}};
+}
+
+Mat3 normal_matrix(const Mat4& to_world) {
+    // The cofactors are the inverse transpose times the determinant: no division, and its sign
+    // keeps the front on the file's counter-clockwise side when the transform mirrors.
+    const Vec3 x(to_world[0]), y(to_world[1]), z(to_world[2]);
+    const Vec3 yz = glm::cross(y, z);
+    const float sign = glm::dot(x, yz) < 0 ? -1.0f : 1.0f;
+    return {sign * yz, sign * glm::cross(z, x), sign * glm::cross(x, y)};
+}
+
+Vec3 shading_normal(const Scene& scene, const SurfacePoint& point, Vec3 geometric_normal) {
+    const Object& object = scene.objects[index_of(point.object)];
+    const Mesh& mesh = scene.mesh_of(object);
+    if (mesh.normals.empty()) return geometric_normal;
+
+    const Primitive& primitive = mesh.primitives[point.primitive];
+    const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
+    const Vec3 blended = blend(mesh.normals, primitive, w);
+    const Vec3 normal = safe_normalize(normal_matrix(object.to_world) * blended, geometric_normal);
+    const float side = glm::dot(normal, geometric_normal);
+    if (side == 0) return geometric_normal;
+    return side < 0 ? -normal : normal;
+}
+
+SurfaceGeometry surface_geometry(const Scene& scene, const SurfacePoint& point) {
+    const Object& object = scene.objects[index_of(point.object)];
+    const Mesh& mesh = scene.mesh_of(object);
+    const Primitive& primitive = mesh.primitives[point.primitive];
+    const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
+
+    SurfaceGeometry geometry;
+    geometry.position = Vec3(object.to_world * Vec4(blend(mesh.positions, primitive, w), 1));
+    geometry.geometric_normal = safe_normalize(
+        normal_matrix(object.to_world) * front_cross(mesh, primitive, w), Vec3(0, 0, 1));
+    geometry.shading_normal = shading_normal(scene, point, geometry.geometric_normal);
+    geometry.primitive = &primitive;
+    geometry.material = &scene.material(primitive.material);
+    return geometry;
+}
+
+Vec4 base_color(const Scene& scene, const SurfacePoint& point) {
+    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
+    const Primitive& primitive = mesh.primitives[point.primitive];
+    const Material& material = scene.material(primitive.material);
+    Vec4 color(material.base_color, material.alpha);
+    if (!material.base_color_texture.used() && mesh.colors.empty()) return color;
+
+    const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
+    if (material.base_color_texture.used())
+        color *= texture_value(scene, material.base_color_texture, mesh, primitive, w);
+    if (!mesh.colors.empty()) color *= blend(mesh.colors, primitive, w);
+    return glm::clamp(color, Vec4(0), Vec4(1));
+}
+
+Rgb mean_reflectance(const Scene& scene, const Material& material) {
+    const TextureUse& use = material.base_color_texture;
+    return use.used() ? material.base_color * mean_color(scene.texture(use.texture))
+                      : material.base_color;
+}
+
+Rgb emission(const Scene& scene, const SurfacePoint& point, bool front) {
+    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
+    const Primitive& primitive = mesh.primitives[point.primitive];
+    const Material& material = scene.material(primitive.material);
+    if (!front && !material.emits_backward) return Rgb(0);
+    if (!material.emission_texture.used()) return material.emission;
+    const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
+    return material.emission *
+           Rgb(texture_value(scene, material.emission_texture, mesh, primitive, w));
+}
+
+float primitive_area(const Scene& scene, ObjectId object_id, std::uint32_t primitive_index) {
+    const Object& object = scene.objects[index_of(object_id)];
+    const Mesh& mesh = scene.mesh_of(object);
+    const Primitive& primitive = mesh.primitives[primitive_index];
+    const Mat3 cofactors = normal_matrix(object.to_world);
+    const auto half_area = [&](float u) {
+        const CornerWeights w = corner_weights(primitive.is_quad(), u, u);
+        return 0.5f * glm::length(cofactors * half_of(mesh, primitive, w).cross());
+    };
+    return half_area(0) + (primitive.is_quad() ? half_area(1) : 0.0f);
+}
+
+}  // namespace chiaro

@@ -1,0 +1,70 @@
+#include "base/tone_map.h"
+
+#include <gtest/gtest.h>
+
+namespace chiaro {
+namespace {
+
+TEST(ToneMap, CurvesRiseFromZeroAndStayBelowOne) {
+    float previous_s = -1;
+    float previous_c = -1;
+    for (const float x : {0.0f, 1e-3f, 1e-2f, 0.1f, 1.0f, 10.0f}) {
+        EXPECT_GT(tumblin_s_curve(x), previous_s);
+        EXPECT_GT(comparison_curve(x), previous_c);
+        previous_s = tumblin_s_curve(x);
+        previous_c = comparison_curve(x);
+    }
+    EXPECT_EQ(tumblin_s_curve(0), 0);
+    EXPECT_EQ(comparison_curve(0), 0);
+    EXPECT_LT(previous_s, 1);
+    EXPECT_LE(comparison_curve(100), 1);
+}
+
+TEST(ToneMap, SlopeIsTheDerivativeOfTheCurve) {
+    for (const float x : {0.1f, 0.4f, 1.0f, 2.0f}) {
+        const float step = 1e-3f;
+        const float difference =
+            (comparison_curve(x + step) - comparison_curve(x - step)) / (2 * step);
+        EXPECT_NEAR(comparison_slope(x), difference, 2e-3f * difference);
+    }
+}
+
+// 5/16 + 9/16 + 2/16 = 1: a grey is the curve itself, and green counts most.
+TEST(ToneMap, PaperWeightsSumToOne) {
+    EXPECT_NEAR(paper_tone_value(Rgb(0.3f), 1), tumblin_s_curve(0.3f), 1e-6f);
+    EXPECT_NEAR(paper_tone_value({0, 1, 0}, 1), 9 / 16.f * tumblin_s_curve(1), 1e-6f);
+    EXPECT_NEAR(paper_tone_value(Rgb(0.1f), 3), tumblin_s_curve(0.3f), 1e-6f);
+}
+
+TEST(ToneMap, ComparisonExposureTakesTheMedianLuminanceToTwoFifths) {
+    Image image(5, 1);
+    for (int x = 0; x < 5; ++x) image.at(x, 0) = Rgb(static_cast<float>(x));  // one black pixel
+    const float k = comparison_exposure(image);
+    EXPECT_GE(0.4f / k, 2.0f);  // between the two middle luminances of 1 2 3 4
+    EXPECT_LE(0.4f / k, 3.0f);
+    EXPECT_EQ(comparison_exposure(Image(2, 2)), 1.0f);
+}
+
+TEST(ToneMap, PicturesForTheScreenAreWithinZeroAndOne) {
+    Image image(4, 1);
+    image.at(1, 0) = Rgb(0.2f);
+    image.at(2, 0) = {1e6f, 0, 0};
+    image.at(3, 0) = Rgb(1e9f);
+    const Image shown = tone_mapped(image, 1);
+    for (const Rgb& pixel : shown.pixels)
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GE(pixel[c], 0);
+            EXPECT_LE(pixel[c], 1);
+        }
+    EXPECT_EQ(shown.at(0, 0), Rgb(0));
+    EXPECT_GT(shown.at(1, 0).r, 0.1f);
+}
+
+TEST(ToneMap, OneStopDoubles) {
+    EXPECT_FLOAT_EQ(exposure_from_ev(0), 1);
+    EXPECT_FLOAT_EQ(exposure_from_ev(1), 2);
+    EXPECT_FLOAT_EQ(exposure_from_ev(-2), 0.25f);
+}
+
+}  // namespace
+}  // namespace chiaro

@@ -1,0 +1,135 @@
+#include "import/import_testing.h"
+#include "scene/surface.h"
+
+namespace chiaro {
+namespace {
+
+// A unit square, texture coordinates as positions, of material `m`.
+std::string square(const std::string& libraries) {
+    return libraries +
+           "\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+           "usemtl m\nf 1/1 2/2 3/3 4/4\n";
+}
+
+Material material_of(const TempFolder& folder, const std::string& properties) {
+    folder.write("m.mtl", "newmtl m\n" + properties);
+    const Scene scene = folder.load("a.obj", square("mtllib m.mtl"));
+    return scene.material(scene.meshes[0].primitives[0].material);
+}
+
+TEST(ReadMtl, ColoursLightAndGlossAreReadAsTheyStand) {
+    const Material m = material_of(TempFolder(),
+                                   "Kd 0.1 0.2 0.3 # rgb\nKs .4\n\tKe 17 12 4\nNs 50\nNi 1.3\n"
+                                   "illum 5\nPr 0.25\nPm 1\nTf 1 1 1\n");
+    EXPECT_EQ(m.name, "m");
+    EXPECT_EQ(m.base_color, Rgb(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.emission, Rgb(17, 12, 4));
+    EXPECT_TRUE(m.double_sided);
+    EXPECT_FALSE(m.emits_backward);
+    EXPECT_EQ(m.gloss.specular, Rgb(0.4f));
+    EXPECT_EQ(m.gloss.shininess, 50);
+    EXPECT_EQ(m.gloss.ior, 1.3f);
+    EXPECT_EQ(m.gloss.illumination_model, 5);
+    EXPECT_EQ(m.gloss.roughness, 0.25f);
+    EXPECT_EQ(m.gloss.metallic, 1);
+}
+
+TEST(ReadMtl, OpacityBelowOneBlends) {
+    const TempFolder folder;
+    EXPECT_EQ(material_of(folder, "d 1\n").alpha_mode, AlphaMode::opaque);
+    EXPECT_EQ(material_of(folder, "Tr 0\n").alpha_mode, AlphaMode::opaque);
+    EXPECT_EQ(material_of(folder, "d 0.25\n").alpha_mode, AlphaMode::blend);
+    EXPECT_EQ(material_of(folder, "d 0.25\n").alpha, 0.25f);
+    EXPECT_EQ(material_of(folder, "Tr 0.25\n").alpha, 0.75f);
+}
+
+TEST(ReadMtl, AMapIsReadFromItsBottomLeft) {
+    const TempFolder folder;
+    Image image(1, 2);
+    image.at(0, 0) = Rgb(1, 0, 0);  // top
+    image.at(0, 1) = Rgb(0, 0, 1);
+    write_png(folder.path() / "two.png", image);
+    folder.write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Kd -clamp on two.png\n");
+    const Scene scene = folder.load("a.obj", square("mtllib m.mtl"));
+    ASSERT_EQ(scene.textures.size(), 1u);
+    EXPECT_EQ(scene.textures[0].wrap_u, Wrap::clamp_to_edge);
+    const Vec4 bottom = base_color(scene, {ObjectId{0}, 0, 0.0f, 0.0f});
+    const Vec4 top = base_color(scene, {ObjectId{0}, 0, 0.0f, 1.0f});
+    EXPECT_NEAR(bottom.z, 1, 1e-5);
+    EXPECT_NEAR(bottom.x, 0, 1e-5);
+    EXPECT_NEAR(top.x, 1, 1e-5);
+}
+
+TEST(ReadMtl, OptionsOfAMapMoveAndScaleIt) {
+    const TempFolder folder;
+    folder.write_picture("with space.png");
+    const Material m = material_of(
+        folder, "Kd 1 1 1\nmap_Kd -s 2 4 1 -o 0.25 0.5 -mm 0 0.5 -bm 1 with space.png\n");
+    ASSERT_TRUE(m.base_color_texture.used());
+    EXPECT_EQ(m.base_color, Rgb(0.5f));
+    // OBJ's (u, v) looks up (2 u + 1/4, 4 v + 1/2), counted from the bottom.
+    const Vec2 found = m.base_color_texture.transform(Vec2(0.1f, 1 - 0.2f));
+    EXPECT_NEAR(found.x, 2 * 0.1f + 0.25f, 1e-6);
+    EXPECT_NEAR(1 - found.y, 4 * 0.2f + 0.5f, 1e-6);
+}
+
+TEST(ReadMtl, AMapBesideBlackCountsFully) {
+    const TempFolder folder;
+    folder.write_picture("p.png");
+    const Material m = material_of(folder, "Kd 0 0 0\nmap_Kd p.png\nKe 0 0 0\nmap_Ke p.png\n");
+    EXPECT_EQ(m.base_color, Rgb(1));
+    EXPECT_EQ(m.emission, Rgb(1));
+    EXPECT_EQ(m.emission_texture.texture, m.base_color_texture.texture);
+}
+
+TEST(ReadMtl, AnOpacityMapInTheColourMapMasks) {
+    const TempFolder folder;
+    folder.write_picture("p.png");
+    EXPECT_EQ(material_of(folder, "map_Kd p.png\nmap_d p.png\n").alpha_mode, AlphaMode::mask);
+}
+
+TEST(ReadMtl, LibrariesMayBeSeveralHaveSpacesAndLieInAFolder) {
+    const TempFolder folder;
+    folder.write_picture("maps/textures/p.png");
+    folder.write("a b.mtl", "newmtl other\n");
+    folder.write("maps/m.mtl", "newmtl m\nKd 1 0 0\nmap_Kd textures\\p.png\n");
+    const Scene scene = folder.load("a.obj", square("mtllib a b.mtl\nmtllib none.mtl maps/m.mtl"));
+    EXPECT_EQ(scene.textures.size(), 1u);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("none.mtl"), std::string::npos);
+}
+
+TEST(ReadMtl, AMissingLibraryOrMaterialLeavesGreyAndAWarning) {
+    const TempFolder folder;
+    const Scene scene = folder.load("a.obj", square("mtllib gone.mtl"));
+    EXPECT_EQ(scene.warnings.size(), 2u);
+    EXPECT_EQ(scene.material(scene.meshes[0].primitives[0].material).base_color, Rgb(0.8f));
+}
+
+TEST(ReadMtl, AnAbsentOrBrokenMapIsRefusedOnlyWhereASurfaceNeedsIt) {
+    const TempFolder folder;
+    folder.write("broken.png", "\x89PNG\r\n\x1a\nxx");
+    folder.write("m.mtl", "newmtl unused\nmap_Kd gone.png\nnewmtl m\nKd 1 1 1\n");
+    EXPECT_NO_THROW(folder.load("a.obj", square("mtllib m.mtl")));
+    for (const std::string map : {"gone.png", "broken.png", "../up.png", "/etc/passwd"}) {
+        folder.write("m.mtl", "newmtl m\nmap_Kd " + map + "\n");
+        const std::string fault = fault_of_file(folder, "a.obj", square("mtllib m.mtl"));
+        EXPECT_TRUE(fault.starts_with("m.mtl:2: ")) << fault;
+    }
+}
+
+TEST(ReadMtl, FaultsNameTheLineOfTheLibrary) {
+    const TempFolder folder;
+    const auto fault = [&](const std::string& properties) {
+        folder.write("m.mtl", "newmtl m\n" + properties);
+        return fault_of_file(folder, "a.obj", square("mtllib m.mtl"));
+    };
+    EXPECT_EQ(fault("Kd 1 x 1\n"), "m.mtl:2: Kd: \"x\" is not a number");
+    EXPECT_EQ(fault("\nKd 1 1\n"), "m.mtl:3: Kd is missing");
+    EXPECT_EQ(fault("Ke nan\n"), "m.mtl:2: Ke: \"nan\" is not a number");
+    EXPECT_EQ(fault("Kd spectral f.rfl\n"), "m.mtl:2: Kd spectral is not supported");
+    EXPECT_EQ(fault("map_Kd\n"), "m.mtl:2: a map without the name of a file");
+}
+
+}  // namespace
+}  // namespace chiaro
