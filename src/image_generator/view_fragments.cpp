@@ -15,9 +15,16 @@ struct Looking {
     float part = 1;
 };
 
+// What a ray meets on its way.
+struct Seen {
+    MaterialId id;
+    const Material& material;
+    Vec3 position;
+};
+
 constexpr int kMostLayers = 32;
 
-// Follows rays until they are stopped, and tells `see(looking, hit, part)` of each surface that shows;
+// Follows rays until they are stopped, and tells `see(looking, hit, seen, part)` of each surface that shows;
 // `part` is what of the pixel it takes.
 template <typename See>
 void look(const RayCaster& rays, std::vector<Looking> looking, const See& see) {
@@ -34,10 +41,14 @@ void look(const RayCaster& rays, std::vector<Looking> looking, const See& see) {
         for (std::size_t i = 0; i < looking.size(); ++i) {
             if (!hits[i]) continue;
             Looking on = looking[i];
-            const SurfaceGeometry at = surface_geometry(scene, hits[i].point);
+            const SurfacePoint& point = hits[i].point;
+            const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
+            const MaterialId id = mesh.primitives[point.primitive].material;
+            const Material& material = scene.material(id);
+            const Seen at = {id, material, on.ray.origin + hits[i].t * on.ray.direction};
             float part = 0;
-            if (hits[i].front || at.material->double_sided) {
-                const bool blended = at.material->alpha_mode == AlphaMode::blend;
+            if (hits[i].front || material.double_sided) {
+                const bool blended = material.alpha_mode == AlphaMode::blend;
                 part = on.part * (blended ? base_color(scene, hits[i].point).a : 1.0f);
                 if (part > 0) see(on, hits[i], at, part);
             }
@@ -89,15 +100,15 @@ SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
                       static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(x), 1};
 
     look(rays, std::move(looking),
-         [&](const Looking& l, const Hit& hit, const SurfaceGeometry& at, float part) {
+         [&](const Looking& l, const Hit& hit, const Seen& at, float part) {
              row.pieces.push_back(
                  {l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)});
-             const Material& m = *at.material;
+             const Material& m = at.material;
              if (aov == Aov::radiance && m.emissive())
                  row.background[l.x] += part * emission(scene, hit.point, hit.front);
              CentreHit& centre = centres[l.x];
              if (centre.object != ObjectId::none) return;
-             centre = {hit.point.object, at.primitive->material, at.geometric_normal, at.position,
+             centre = {hit.point.object, at.id, hit.normal, at.position,
                        hit.t, hit.point, m.base_color_texture.used(), m.emissive() || m.see_through()};
          });
     // Layers were seen one after the other; a pixel's pieces belong together.
@@ -123,10 +134,10 @@ void see_pixel(const RayCaster& rays, const View& view, int x, int y, Aov aov, S
     std::vector<float> weights;
     Rgb background(0);
     look(rays, std::move(looking),
-         [&](const Looking& l, const Hit& hit, const SurfaceGeometry& at, float part) {
+         [&](const Looking& l, const Hit& hit, const Seen& at, float part) {
              add_piece(row.pieces, weights, first,
                        {l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)}, part);
-             if (aov == Aov::radiance && at.material->emissive())
+             if (aov == Aov::radiance && at.material.emissive())
                  background += part * emission(scene, hit.point, hit.front);
          });
     row.background[x] = background;

@@ -8,9 +8,9 @@
 namespace chiaro {
 namespace {
 
-// From the surplus of a patch's corners to that expected at its midpoints: a half lies between a
-// kink (1) and a smooth function (1/4). The range counts for less: a gradient is no error.
-constexpr float kSurplusNext = 0.5f;
+// From the surplus of a patch's corners to that expected at its midpoints: between a smooth function
+// (1/4) and a kink (1/2 to 1). The range counts for less: a gradient is no error.
+constexpr float kSurplusNext = 0.35f;
 constexpr float kRangeNext = 0.14f;
 
 // A patch whose corners are partly buried holds a contact line, whose shading no corner shows.
@@ -106,7 +106,8 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
         const Estimate* e = cache.estimate(patch.corners[i], channel);
         if (!e || cache.vertex(patch.corners[i]).buried || e->samples >= kMostSamples) continue;
         const float cost = static_cast<float>(e->samples) * settings.seconds_a_sample[channel];
-        const float drop = 0.5f * e->variance * slope * slope * fragments / cost;
+        // Half the variance would go at this corner; but it shows in all patches round it.
+        const float drop = e->variance * slope * slope * fragments / cost;
         if (drop > result.resample) {
             result.resample = drop;
             result.noisiest = patch.corners[i];

@@ -24,6 +24,20 @@ void SumTree::resize(std::size_t count) {
     }
 }
 
+void SumTree::assign(std::vector<float> weights) {
+    for (const float w : weights)
+        check(w >= 0 && std::isfinite(w), "SumTree: weights are finite and not negative");
+    levels_.clear();
+    if (weights.empty()) return;
+    levels_.push_back(std::move(weights));
+    while (levels_.back().size() > kFan) {
+        const auto& below = levels_.back();
+        std::vector<float> above((below.size() + kFan - 1) / kFan, 0.0f);
+        for (std::size_t i = 0; i < below.size(); ++i) above[i / kFan] += below[i];
+        levels_.push_back(std::move(above));
+    }
+}
+
 void SumTree::set(std::size_t i, float weight) {
     check(weight >= 0 && std::isfinite(weight), "SumTree: weights are finite and not negative");
     levels_.front()[i] = weight;

@@ -16,6 +16,9 @@ public:
     void clear() { levels_.clear(); }
     std::size_t size() const { return levels_.empty() ? 0 : levels_.front().size(); }
 
+    /// Sets all weights at once: as resize() and set() for each, but in one pass.
+    void assign(std::vector<float> weights);
+
     float weight(std::size_t i) const { return levels_.front()[i]; }
     void set(std::size_t i, float weight);
     double total() const;

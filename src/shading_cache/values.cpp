@@ -34,8 +34,8 @@ void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std
 }
 
 // By how much the prediction missed the first estimate, beyond what its noise explains. A vertex that
-// happens to agree does not speak for its neighbourhood alone: a quarter of its parents' surplus
-// is what a smooth function would have left.
+// happens to agree does not speak for its whole neighbourhood: a part of its parents' surplus stays
+// suspected, less than the quarter that a smooth function would leave.
 float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float variance) const {
     const std::optional<Rgb> prediction = predicted(vertex(id), channel);
     if (!prediction) return Estimate::kUnknown;
@@ -50,12 +50,12 @@ float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float vari
         inherited = std::max(inherited, surplus(vertex(id).parents[i], *e));
     }
     const float own = std::sqrt(std::max(0.0f, miss * miss - 3 * noise));
-    return std::max(own, 0.25f * inherited);
+    return std::max(own, inherited / 16);
 }
 
 float ShadingCache::surplus(VertexId id, const Estimate& estimate) const {
     // A vertex that nothing predicted tells nothing of what lies around it.
-    constexpr float kPartUnknown = 0.25f;
+    constexpr float kPartUnknown = 0.4f;
     if (estimate.surplus != Estimate::kUnknown) return estimate.surplus;
     return kPartUnknown * luminance(shown_total(id).irradiance);
 }

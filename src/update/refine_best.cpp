@@ -1,5 +1,6 @@
 // Refinement of the best scheme: patches drawn at random in proportion to what they would gain.
 
+#include "base/parallel.h"
 #include "sample_selector/gain.h"
 #include "update/start_level.h"
 #include "update/update_cycle.h"
@@ -23,12 +24,12 @@ void UpdateCycle::refine() {
         const StepTimer timer(statistics_.timings, Step::sample_selection);
         for (const auto& [patch, channel] : touched_) {
             expose_if_seen(cache_, patch);
-            set_gain(patch, channel);
+            front_[channel].set(index_of(patch), front_gain(patch, channel));
         }
     }
-    // Neighbours of what was shaded learn of it here. Waiting for a twentieth of the vertices keeps
-    // this pass over everything a small part of the whole.
-    if (points_since_refresh_ * 20 > cache_.vertices().size()) refresh();
+    // Neighbours of what was shaded learn of it here. Waiting for a tenth of the vertices keeps this
+    // pass over everything a small part of the whole.
+    if (points_since_refresh_ * 10 > cache_.vertices().size()) refresh();
 }
 
 double UpdateCycle::seconds_budget() const {
@@ -117,9 +118,9 @@ void UpdateCycle::divide(PatchId id, int channel, ShadeWork& work) {
     }
 }
 
-void UpdateCycle::set_gain(PatchId id, int channel) {
-    const bool on = on_front(cache_, id, channel);
-    front_[channel].set(index_of(id), on ? gain(cache_, id, channel, gains_).best() : 0);
+float UpdateCycle::front_gain(PatchId id, int channel) const {
+    if (cache_.patch(id).fragment_count == 0 || !on_front(cache_, id, channel)) return 0;
+    return gain(cache_, id, channel, gains_).best();
 }
 
 void UpdateCycle::refresh() {
@@ -131,9 +132,14 @@ void UpdateCycle::refresh() {
     if (settings_.scheme == Scheme::paper) return;
     const StepTimer timer(statistics_.timings, Step::sample_selection);
     for (int c = 0; c < cache_.channels(); ++c) {
-        front_[c].resize(cache_.patches().size());
-        for (std::size_t i = 0; i < cache_.patches().size(); ++i)
-            set_gain(static_cast<PatchId>(i), c);
+        std::vector<float> gains(cache_.patches().size(), 0.0f);
+        constexpr std::size_t kBlock = 1024;
+        parallel_for(settings_.threads, (gains.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+            const std::size_t last = std::min(gains.size(), (block + 1) * kBlock);
+            for (std::size_t i = block * kBlock; i < last; ++i)
+                gains[i] = front_gain(static_cast<PatchId>(i), c);
+        });
+        front_[c].assign(std::move(gains));
     }
 }
 

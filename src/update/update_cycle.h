@@ -78,7 +78,7 @@ private:
     PatchId front_patch_at(std::uint32_t pixel, int channel);
     void spend_on(PatchId patch, int channel, ShadeWork& work);
     void shade(ShadeWork& work);
-    void set_gain(PatchId patch, int channel);
+    float front_gain(PatchId patch, int channel) const;
     void refresh();
     void estimate_exposure();
     double work_seconds(const ShadeWork& work) const;
