@@ -1,5 +1,5 @@
-// Error against the reference over time, for the best scheme, the paper's and per-pixel path tracing,
-// in one run on one machine with the same rays and lights. Prints JSON.
+// Error against the reference over time, for the best scheme, the paper's and per-pixel path
+// tracing, in one run on one machine with the same rays and lights. Prints JSON.
 //
 // The reference comes in two independent halves, and errors are cross products with both, so that
 // its own noise cancels. Time is wall time after loading; drawing a picture to measure it is not
@@ -87,8 +87,8 @@ nlohmann::json measure_cache(const Stage& stage, Scheme scheme, double seconds,
             // A picture that is looked at has to be drawn once.
             const double draw_seconds = seconds_since(drawing);
             rows.push_back(row(spent + draw_seconds, picture, reference));
-            rows.back()["bytes_per_patch"] =
-                static_cast<double>(cycle.bytes()) / static_cast<double>(cycle.cache().patches().size());
+            rows.back()["bytes_per_patch"] = static_cast<double>(cycle.bytes()) /
+                                             static_cast<double>(cycle.cache().patches().size());
             rows.back()["points"] = cycle.statistics().points_shaded;
         }
         start = Clock::now();
@@ -96,7 +96,8 @@ nlohmann::json measure_cache(const Stage& stage, Scheme scheme, double seconds,
     return rows;
 }
 
-nlohmann::json measure_path_tracing(const Stage& stage, double seconds, const Reference& reference) {
+nlohmann::json measure_path_tracing(const Stage& stage, double seconds,
+                                    const Reference& reference) {
     nlohmann::json rows = nlohmann::json::array();
     Checkpoints checkpoints;
     double spent = 0;
@@ -139,8 +140,9 @@ int run(int argc, char** argv) {
     const Camera camera = choose_camera(scene, options);
     add_headlamp_if_dark(scene, camera);
     // The stage keeps references to its own scene, so it is filled where it stays.
-    const auto stage = std::unique_ptr<Stage>(new Stage{
-        std::move(scene), RayCaster(Scene(), 1), AreaLights(Scene()), View(camera, size.width, size.height), threads});
+    const auto stage = std::unique_ptr<Stage>(
+        new Stage{std::move(scene), RayCaster(Scene(), 1), AreaLights(Scene()),
+                  View(camera, size.width, size.height), threads});
     stage->rays = RayCaster(stage->scene, threads);
     stage->area_lights = AreaLights(stage->scene);
 

@@ -1,5 +1,5 @@
-// The paper's Figure 3 from our own program: the mesh, the priority map, the samples in their colours,
-// the mesh after them, and the image before and after. Runs the paper's scheme.
+// The paper's Figure 3 from our own program: the mesh, the priority map, the samples in their
+// colours, the mesh after them, and the image before and after. Runs the paper's scheme.
 
 #include "apps/open_scene.h"
 #include "base/parallel.h"
@@ -45,7 +45,8 @@ Image draw_samples(const Image& under, const std::vector<SelectedPixel>& samples
         const Rgb color = s.by == SelectedBy::priority ? Rgb(1, 0.1f, 0.1f)
                           : s.by == SelectedBy::chance ? Rgb(0.1f, 1, 0.1f)
                                                        : Rgb(1, 1, 0.1f);
-        const int x = static_cast<int>(s.pixel) % image.width, y = static_cast<int>(s.pixel) / image.width;
+        const int x = static_cast<int>(s.pixel) % image.width,
+                  y = static_cast<int>(s.pixel) / image.width;
         for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx)
                 if (x + dx >= 0 && x + dx < image.width && y + dy >= 0 && y + dy < image.height)
@@ -82,7 +83,9 @@ int run(int argc, char** argv) {
     for (int i = 0; i < cycles; ++i) cycle.run();
 
     std::filesystem::create_directories(folder);
-    const auto save = [&](const char* name, const Image& image) { write_png(folder + "/" + name, image); };
+    const auto save = [&](const char* name, const Image& image) {
+        write_png(folder + "/" + name, image);
+    };
     const float exposure = comparison_exposure(cycle.picture());
     const Image before = tone_mapped(cycle.picture(), exposure);
     save("1_mesh.png", draw_mesh(cycle.id_map()));

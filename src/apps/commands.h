@@ -1,5 +1,5 @@
-// The commands. Each does its work and returns the exit status; what is wrong with the outside world
-// leaves it as an Error.
+// The commands. Each does its work and returns the exit status; what is wrong with the outside
+// world leaves it as an Error.
 #pragma once
 
 #include "apps/options.h"

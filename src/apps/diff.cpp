@@ -11,8 +11,8 @@
 namespace chiaro {
 
 int diff_command(const Options& options) {
-    const ImageDifference d =
-        difference(read_image(options.picture_a), read_image(options.picture_b));
+    const Image a = read_image(options.picture_a);
+    const ImageDifference d = difference(a, read_image(options.picture_b));
     nlohmann::ordered_json j;
     // JSON has no infinity: equal pictures have a PSNR of null.
     j["psnr"] = std::isfinite(d.psnr) ? nlohmann::ordered_json(d.psnr) : nlohmann::ordered_json();

@@ -2,6 +2,7 @@
 
 #include "apps/commands.h"
 #include "apps/open_scene.h"
+#include "apps/output.h"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -50,7 +51,7 @@ void print_list(const nlohmann::ordered_json& j, const char* what) {
     constexpr std::size_t kMost = 20;
     std::printf("%-10s %zu", what, j[what].size());
     for (std::size_t i = 0; i < j[what].size() && i < kMost; ++i)
-        std::printf("%s%s", i == 0 ? ": " : ", ", j[what][i].get<std::string>().c_str());
+        std::printf("%s%s", i == 0 ? ": " : ", ", printable(j[what][i].get<std::string>()).c_str());
     std::printf("%s\n", j[what].size() > kMost ? ", ..." : "");
 }
 
@@ -60,7 +61,8 @@ int info_command(const Options& options) {
     const nlohmann::ordered_json j = describe(open_scene(options));
     if (options.json) {
         // Names come from files: whatever is no UTF-8 in them is replaced, not an error.
-        std::printf("%s\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+        std::printf("%s\n",
+                    j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
         return 0;
     }
     std::printf("primitives %zu: %zu quads, %zu triangles; %zu emit\n",

@@ -16,7 +16,9 @@ void on_signal(int signal) {
 
 }  // namespace
 
-bool interrupted() { return g_interrupted; }
+bool interrupted() {
+    return g_interrupted;
+}
 
 void catch_interrupts() {
     std::signal(SIGINT, on_signal);

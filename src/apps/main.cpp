@@ -1,10 +1,14 @@
 // The command line. The only place that catches errors and prints them.
 
 #include "apps/commands.h"
+#include "apps/output.h"
 #include "base/error.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <new>
 
@@ -14,10 +18,48 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kBadInput = 2;
 
-int comes_later(const char* command) {
-    std::fprintf(stderr, "chiaro: %s comes in a later version; chiaro render makes pictures now\n",
-                 command);
+void complain(const std::string& what) {
+    std::fprintf(stderr, "chiaro: %s\n", printable(what).c_str());
+}
+
+int comes_later(const std::string& command) {
+    complain(command + " comes in a later version; chiaro render makes pictures now");
     return kFailed;
+}
+
+bool names_scene(const std::string& word) {
+    const std::string ending = std::filesystem::path(word).extension().string();
+    return word.starts_with("builtin:") || ending == ".gltf" || ending == ".glb" ||
+           ending == ".obj";
+}
+
+// The command line has no command. A scene alone means to view it.
+int without_command(const std::string& word) {
+    if (word.empty()) {
+        complain(
+            "a command is required, as in chiaro render builtin:room -o room.png; "
+            "chiaro --help lists them");
+    } else if (names_scene(word)) {
+        complain("view comes in a later version; chiaro render " + word +
+                 " -o picture.png makes a picture now");
+        return kFailed;
+    } else {
+        complain("there is no command or option '" + word + "'; chiaro --help lists what there is");
+    }
+    return kBadInput;
+}
+
+// What the parser found wrong, in our words.
+std::string in_our_words(const CLI::ParseError& e) {
+    const std::string what = e.what();
+    const auto colon = what.find(": "), equals = what.find(" = ");
+    const bool convert = dynamic_cast<const CLI::ConversionError*>(&e) != nullptr;
+    if (convert && colon != std::string::npos && equals != std::string::npos)
+        return what.substr(colon + 2, equals - colon - 2) + ": '" + what.substr(equals + 3) +
+               "' is no such number";
+    if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr && colon != std::string::npos)
+        return "not expected here: " + what.substr(colon + 2);
+    return what;
 }
 
 using Run = std::function<int()>;
@@ -25,24 +67,35 @@ using Run = std::function<int()>;
 void add_picture_commands(CLI::App& app, Options& o, Run& run) {
     CLI::App& render = *app.add_subcommand("render", "a converging picture from the Shading Cache");
     add_scene_options(render, o);
-    render.add_option("-o,--output", o.output, "picture to write: .png tone-mapped, .exr linear")->required();
+    render.add_option("-o,--output", o.output, "picture to write: .png tone-mapped, .exr linear")
+        ->required();
     add_view_options(render, o);
     add_render_options(render, o);
     render.add_option("--time", o.time, "seconds of wall time after loading (default: 10)");
-    render.add_option("--samples", o.samples,
-                      "points to shade instead: the same picture on any number of threads");
-    render.add_option("--scheme", o.scheme, "best, or paper: as published in 2002")->capture_default_str();
-    render.add_option("--direct-samples", o.direct_samples, "a vertex, in --scheme paper (default: 100)");
-    render.add_option("--indirect-samples", o.indirect_samples, "a vertex, in --scheme paper (default: 400)");
+    render
+        .add_option("--samples", o.samples,
+                    "points to shade instead: the same picture on any number of threads")
+        ->check(not_negative());
+    render.add_option("--scheme", o.scheme, "best, or paper: as published in 2002")
+        ->capture_default_str();
+    render.add_option("--direct-samples", o.direct_samples,
+                      "a vertex, in --scheme paper (default: 100)");
+    render.add_option("--indirect-samples", o.indirect_samples,
+                      "a vertex, in --scheme paper (default: 400)");
     render.add_option("--aov", o.aov, "radiance, or irradiance in lux")->capture_default_str();
     render.add_option("--stats", o.statistics, "write figures of the run as JSON");
-    render.footer("Examples:\n  chiaro render builtin:room -o room.png --time 10\n"
-                  "  chiaro render kitchen.obj -o kitchen.exr --eye 7.6,-4.2,1.4 --target 12,4.7,0.1 --up 0,0,1 --vfov 60");
+    render.footer(
+        "Examples:\n  chiaro render builtin:room -o room.png --time 10\n"
+        "  chiaro render kitchen.obj -o kitchen.exr --eye 7.6,-4.2,1.4 --target 12,4.7,0.1 --up "
+        "0,0,1 --vfov 60");
     render.callback([&] { run = [&] { return render_command(o); }; });
 
-    CLI::App& reference = *app.add_subcommand("reference", "the same picture by path tracing each pixel");
+    CLI::App& reference =
+        *app.add_subcommand("reference", "the same picture by path tracing each pixel");
     add_scene_options(reference, o);
-    reference.add_option("-o,--output", o.output, "picture to write: .exr linear, .png tone-mapped")->required();
+    reference
+        .add_option("-o,--output", o.output, "picture to write: .exr linear, .png tone-mapped")
+        ->required();
     add_view_options(reference, o);
     add_render_options(reference, o);
     reference.add_option("--spp", o.spp, "paths a pixel (default: 64)");
@@ -52,14 +105,16 @@ void add_picture_commands(CLI::App& app, Options& o, Run& run) {
 }
 
 void add_measuring_commands(CLI::App& app, Options& o, Run& run) {
-    CLI::App& trace = *app.add_subcommand(
-        "trace", "light at points: lines `x y z nx ny nz` in, `r g b` out");
+    CLI::App& trace =
+        *app.add_subcommand("trace", "light at points: lines `x y z nx ny nz` in, `r g b` out");
     add_scene_options(trace, o);
     add_render_options(trace, o);
-    trace.add_flag("-I", o.irradiance, "irradiance at points; without it, radiance along rays x y z dx dy dz");
+    trace.add_flag("-I", o.irradiance,
+                   "irradiance at points; without it, radiance along rays x y z dx dy dz");
     trace.add_flag("--lux", o.lux, "with -I: illuminance alone, one number a line");
     trace.add_option("--direct-samples", o.direct_samples, "a point (default: 100)");
-    trace.add_option("--indirect-samples", o.indirect_samples, "a point, or paths a ray (default: 400)");
+    trace.add_option("--indirect-samples", o.indirect_samples,
+                     "a point, or paths a ray (default: 400)");
     trace.footer("Example:\n  echo 2.78 0 2 0 1 0 | chiaro trace -I --lux builtin:cornell");
     trace.callback([&] { run = [&] { return trace_command(o); }; });
 
@@ -91,19 +146,26 @@ int run_command_line(int argc, char** argv) {
     app.name("chiaro");
     app.set_version_flag("--version", std::string("chiaro ") + CHIARO_VERSION);
     app.require_subcommand(1);
-    app.failure_message([](const CLI::App*, const CLI::Error& e) {
-        return "chiaro: " + std::string(e.what()) + "; chiaro --help lists what there is\n";
-    });
     add_picture_commands(app, options, run);
     add_measuring_commands(app, options, run);
     add_later_commands(app, run);
-    app.footer("Example:\n  chiaro render builtin:room -o room.png\nchiaro COMMAND --help tells of a command's options.");
+    app.footer(
+        "Example:\n  chiaro render builtin:room -o room.png\nchiaro COMMAND --help tells of a "
+        "command's options.");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? 0 : kBadInput;
+        if (e.get_exit_code() == 0) return app.exit(e);
+        const auto commands = app.get_subcommands();
+        if (commands.empty()) return without_command(argc > 1 ? argv[1] : "");
+        complain(in_our_words(e) + "; chiaro " + commands.front()->get_name() +
+                 " --help lists what there is");
+        return kBadInput;
     }
-    return run();
+    const int status = run();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw Error("standard output", "cannot be written: " + std::string(std::strerror(errno)));
+    return status;
 }
 
 }  // namespace
@@ -111,18 +173,19 @@ int run_command_line(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-        std::fprintf(stderr, "chiaro: this processor lacks AVX2; any x86-64 made since about 2015 has it\n");
+        std::fprintf(
+            stderr, "chiaro: this processor lacks AVX2; any x86-64 made since about 2015 has it\n");
         return chiaro::kFailed;
     }
     try {
         return chiaro::run_command_line(argc, argv);
     } catch (const chiaro::Error& e) {
-        std::fprintf(stderr, "chiaro: %s\n", e.what());
+        chiaro::complain(e.what());
         return chiaro::kBadInput;
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "chiaro: not enough memory\n");
+        chiaro::complain("not enough memory");
     } catch (const std::exception& e) {
-        std::fprintf(stderr, "chiaro: %s\n", e.what());
+        chiaro::complain(e.what());
     }
     return chiaro::kFailed;
 }

@@ -1,5 +1,6 @@
 #include "apps/open_scene.h"
 
+#include "apps/output.h"
 #include "base/error.h"
 #include "import/load_scene.h"
 #include "scene/built_in.h"
@@ -33,6 +34,7 @@ const Camera& named_camera(const Scene& scene, const std::string& name) {
 Scene open_scene(const Options& options) {
     if (!(options.scale > 0) || !std::isfinite(options.scale))
         throw Error("--scale", "it must be a finite number above 0");
+    if (options.scene.empty()) throw Error("SCENE", "no file is named");
     Scene scene;
     if (options.scene.starts_with(kBuiltIn)) {
         auto built_in = built_in_scene(options.scene.substr(kBuiltIn.size()));
@@ -47,7 +49,7 @@ Scene open_scene(const Options& options) {
         scene = load_scene(options.scene, load);
     }
     for (const std::string& warning : scene.warnings)
-        std::fprintf(stderr, "chiaro: warning: %s\n", warning.c_str());
+        std::fprintf(stderr, "chiaro: warning: %s\n", printable(warning).c_str());
     return scene;
 }
 
@@ -62,14 +64,17 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     }
     if (!options.eye.empty()) camera.eye = parse_vector("--eye", options.eye);
     if (!options.target.empty()) camera.target = parse_vector("--target", options.target);
-    if (!options.up.empty()) camera.up = parse_vector("--up", options.up);
-    else if (!options.eye.empty()) camera.up = scene.up;
+    if (!options.up.empty())
+        camera.up = parse_vector("--up", options.up);
+    else if (!options.eye.empty())
+        camera.up = scene.up;
     if (options.vertical_fov) camera.vertical_fov = *options.vertical_fov;
 
     if (!(camera.vertical_fov > 0 && camera.vertical_fov < 180))
         throw Error("--vfov", "the field of view must lie between 0 and 180 degrees");
     const Vec3 forward = camera.target - camera.eye;
-    if (!(glm::length(forward) > 0)) throw Error("--target", "it is where the eye is", "move one of them");
+    if (!(glm::length(forward) > 0))
+        throw Error("--target", "it is where the eye is", "move one of them");
     if (!(glm::length(glm::cross(forward, camera.up)) > 1e-6f * glm::length(forward)))
         throw Error("--up", "it points along the line of sight", "give another vertical");
     return camera;

@@ -9,8 +9,8 @@ namespace chiaro {
 /// The scene that the options name. Prints its warnings to standard error, a line each.
 Scene open_scene(const Options& options);
 
-/// The camera that the options ask for: a named or numbered one, or one from --eye, else the scene's
-/// first, else one from inside its bounds. Further options change it.
+/// The camera that the options ask for: a named or numbered one, or one from --eye, else the
+/// scene's first, else one from inside its bounds. Further options change it.
 Camera choose_camera(const Scene& scene, const Options& options);
 
 /// Gives a scene without lights a lamp at the eye, with a warning.

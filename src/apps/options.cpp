@@ -10,6 +10,7 @@ namespace chiaro {
 namespace {
 
 constexpr int kLargestSide = 16384;
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 25;  // 8192x4096; about 150 bytes each
 
 // The number that all of `text` is, if it is one.
 template <typename T>
@@ -28,11 +29,11 @@ PictureSize parse_size(const std::string& text) {
         const auto width = parse_number<int>(std::string_view(text).substr(0, x));
         const auto height = parse_number<int>(std::string_view(text).substr(x + 1));
         if (width && height && *width > 0 && *height > 0 && *width <= kLargestSide &&
-            *height <= kLargestSide)
+            *height <= kLargestSide && std::int64_t{*width} * *height <= kMostPixels)
             return {*width, *height};
     }
     throw Error("--size", "'" + text + "' is no picture size",
-                "give width x height from 1x1 to 16384x16384, as 800x600");
+                "give width x height of 2^25 pixels at most, as 800x600");
 }
 
 Vec3 parse_vector(const std::string& option, const std::string& text) {
@@ -66,7 +67,8 @@ Aov parse_aov(const std::string& text) {
 void check_renderer(const std::string& text) {
     if (text == "path") return;
     for (const char* later : {"bidirectional", "caustic", "gather"})
-        if (text == later) throw Error("--renderer", text + " comes in a later version", "use path");
+        if (text == later)
+            throw Error("--renderer", text + " comes in a later version", "use path");
     throw Error("--renderer", "there is no renderer '" + text + "'", "use path");
 }
 
@@ -86,8 +88,17 @@ int thread_count(const Options& options) {
     return options.threads > 0 ? options.threads : hardware_threads();
 }
 
+CLI::Validator not_negative() {
+    return {[](std::string& text) {
+                return text.starts_with('-') ? "'" + text + "' is negative" : std::string();
+            },
+            ""};
+}
+
 void add_scene_options(CLI::App& command, Options& o) {
-    command.add_option("SCENE", o.scene, "a .gltf, .glb or .obj file, or builtin:room, builtin:cornell")
+    command
+        .add_option("SCENE", o.scene,
+                    "a .gltf, .glb or .obj file, or builtin:room, builtin:cornell")
         ->required();
     command.add_option("--up", o.up, "the vertical of a file that is not y-up, as 0,0,1");
     command.add_option("--scale", o.scale, "multiplies all lengths of the file");
@@ -106,7 +117,9 @@ void add_view_options(CLI::App& command, Options& o) {
 void add_render_options(CLI::App& command, Options& o) {
     command.add_option("--renderer", o.renderer, "sample renderer")->capture_default_str();
     command.add_option("--threads", o.threads, "threads to use (default: all)");
-    command.add_option("--seed", o.seed, "of all random numbers")->capture_default_str();
+    command.add_option("--seed", o.seed, "of all random numbers")
+        ->capture_default_str()
+        ->check(not_negative());
 }
 
 }  // namespace chiaro

@@ -29,8 +29,8 @@ struct Options {
     std::optional<float> exposure;
     float scale = 1;
 
-    std::optional<double> time;           // seconds after loading
-    std::optional<std::uint64_t> samples; // points shaded
+    std::optional<double> time;            // seconds after loading
+    std::optional<std::uint64_t> samples;  // points shaded
     std::optional<int> spp;
     bool irradiance = false;  // trace -I
     bool lux = false;
@@ -54,6 +54,9 @@ std::uint32_t sample_count(const char* option, std::optional<int> value, std::ui
 
 /// Threads to use: what was asked for, or all that the machine has.
 int thread_count(const Options& options);
+
+/// Refuses negative numbers, which CLI11 would wrap round to large unsigned ones.
+CLI::Validator not_negative();
 
 void add_scene_options(CLI::App& command, Options& options);
 void add_view_options(CLI::App& command, Options& options);

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -16,6 +17,9 @@
 namespace chiaro {
 
 void check_outputs(const Options& options) {
+    if (options.output.empty()) throw Error("-o", "no file is named", "give a .png or .exr file");
+    if (options.exposure && !std::isfinite(*options.exposure))
+        throw Error("--exposure", "it must be a finite number of stops");
     check_writable(options.output);
     if (options.statistics.empty()) return;
     const std::filesystem::path file = options.statistics;
@@ -27,25 +31,29 @@ void check_outputs(const Options& options) {
 
 void save_picture(const Options& options, const Image& picture) {
     std::string ending = std::filesystem::path(options.output).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
     if (ending == ".exr") {
         write_exr(options.output, picture);
         return;
     }
-    const float exposure = options.exposure ? std::exp2(*options.exposure) : comparison_exposure(picture);
+    const float exposure =
+        options.exposure ? std::exp2(*options.exposure) : automatic_exposure(picture);
     write_png(options.output, tone_mapped(picture, exposure));
 }
 
 std::string statistics_json(const UpdateCycle& cycle, const RunFigures& figures) {
     const Statistics& s = cycle.statistics();
-    const double patches = static_cast<double>(std::max<std::size_t>(cycle.cache().patches().size(), 1));
+    const double patches =
+        static_cast<double>(std::max<std::size_t>(cycle.cache().patches().size(), 1));
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
 
     nlohmann::ordered_json j;
     j["cycles"] = s.cycles;
     j["points_shaded"] = s.points_shaded;
-    j["points_per_second"] = figures.seconds > 0 ? static_cast<double>(s.points_shaded) / figures.seconds : 0;
+    j["points_per_second"] =
+        figures.seconds > 0 ? static_cast<double>(s.points_shaded) / figures.seconds : 0;
     j["patches"] = cycle.cache().patches().size();
     j["vertices"] = cycle.cache().vertices().size();
     j["bytes_per_patch"] = static_cast<double>(cycle.bytes()) / patches;
@@ -62,6 +70,12 @@ void save_text(const std::string& file, const std::string& text) {
     std::ofstream out(file, std::ios::binary);
     out << text;
     if (!out.flush()) throw Error(file, "cannot be written");
+}
+
+std::string printable(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    return text;
 }
 
 ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}

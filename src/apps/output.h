@@ -23,6 +23,10 @@ struct RunFigures {
 std::string statistics_json(const UpdateCycle& cycle, const RunFigures& figures);
 void save_text(const std::string& file, const std::string& text);
 
+/// Text of which parts come from files or users, for one line on a terminal: control characters
+/// become question marks.
+std::string printable(std::string text);
+
 /// A line on a terminal that shows how far the work is; silent where standard error is none.
 class ProgressBar {
 public:

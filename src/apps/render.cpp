@@ -30,13 +30,18 @@ UpdateSettings update_settings(const Options& options) {
 void check_budget(const Options& options) {
     if (options.time && !(*options.time >= 0 && std::isfinite(*options.time)))
         throw Error("--time", "it must be a number of seconds, 0 or more");
+    constexpr std::uint64_t kMostPoints = 1'000'000'000'000;
+    if (options.samples && (*options.samples == 0 || *options.samples > kMostPoints))
+        throw Error("--samples", "it must lie between 1 and 1000000000000");
 }
 
 // Cycles until the budget is spent or the user has seen enough.
 RunFigures run_cycles(UpdateCycle& cycle, const Options& options) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
-    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    const auto elapsed = [&] {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
     const double seconds = options.time.value_or(options.samples ? INFINITY : kDefaultSeconds);
 
     ProgressBar bar;
@@ -49,7 +54,8 @@ RunFigures run_cycles(UpdateCycle& cycle, const Options& options) {
         const std::size_t points = cycle.statistics().points_shaded;
         double part = std::isfinite(seconds) && seconds > 0 ? elapsed() / seconds : 0;
         if (options.samples)
-            part = std::max(part, static_cast<double>(points) / static_cast<double>(*options.samples));
+            part =
+                std::max(part, static_cast<double>(points) / static_cast<double>(*options.samples));
         bar.show(part, std::to_string(points) + " points, " +
                            std::to_string(cycle.cache().patches().size()) + " patches");
         // Nothing in view needs shading: more cycles would change nothing.

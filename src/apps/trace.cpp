@@ -1,4 +1,5 @@
-// chiaro trace: light at points or along rays, straight from the sample renderer, as Radiance's rtrace.
+// chiaro trace: light at points or along rays, straight from the sample renderer, as Radiance's
+// rtrace.
 
 #include "apps/commands.h"
 #include "apps/open_scene.h"
@@ -32,7 +33,8 @@ std::optional<Line> parse_line(const std::string& text, std::size_t number) {
     const char* next = text.data();
     const char* const end = next + text.size();
     for (;;) {
-        while (next != end && (std::isspace(static_cast<unsigned char>(*next)) || *next == '+')) ++next;
+        while (next != end && (std::isspace(static_cast<unsigned char>(*next)) || *next == '+'))
+            ++next;
         if (next == end) break;
         if (count == values.size()) throw fault("more than six numbers");
         const auto [after, error] = std::from_chars(next, end, values[count]);
@@ -49,16 +51,26 @@ std::optional<Line> parse_line(const std::string& text, std::size_t number) {
     return Line{Vec3(values[0], values[1], values[2]), glm::normalize(direction)};
 }
 
-// Irradiance at the lines' places, or radiance along them.
+struct Effort {
+    std::uint32_t direct, indirect;  // samples a line
+    int threads;
+};
+
+Effort effort_of(const Options& options) {
+    return {sample_count("--direct-samples", options.direct_samples, 100),
+            sample_count("--indirect-samples", options.indirect_samples, 400),
+            thread_count(options)};
+}
+
+// Irradiance at the lines' places, or radiance along them; `first` is the first line's number.
 std::vector<Rgb> measure(const LitScene& lit, const std::vector<Line>& lines, std::size_t first,
                          const Options& options) {
-    const std::uint32_t direct = sample_count("--direct-samples", options.direct_samples, 100);
-    const std::uint32_t indirect = sample_count("--indirect-samples", options.indirect_samples, 400);
-    const int threads = thread_count(options);
+    const auto [direct, indirect, threads] = effort_of(options);
     std::vector<Rgb> values(lines.size());
     if (!options.irradiance) {
         std::vector<Ray> rays;
-        for (const Line& line : lines) rays.push_back({line.position, line.direction, 0, kInfinity});
+        for (const Line& line : lines)
+            rays.push_back({line.position, line.direction, 0, kInfinity});
         const std::uint32_t seed =
             hash32(static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(first));
         radiance(lit, rays, {seed, 0, indirect, threads}, values);
@@ -70,8 +82,8 @@ std::vector<Rgb> measure(const LitScene& lit, const std::vector<Line>& lines, st
     for (std::size_t i = 0; i < lines.size(); ++i) {
         places.push_back({lines[i].position, lines[i].direction});
         requests[i].light = Light::total;
-        requests[i].seed = hash32(static_cast<std::uint32_t>(options.seed),
-                                  static_cast<std::uint32_t>(first + i));
+        requests[i].seed =
+            hash32(static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(first + i));
         requests[i].samples = direct;
         requests[i].indirect_samples = indirect;
     }
@@ -98,8 +110,9 @@ int trace_command(const Options& options) {
     check_renderer(options.renderer);
     if (options.lux && !options.irradiance)
         throw Error("--lux", "radiance is not measured in lux", "add -I");
+    const Effort effort = effort_of(options);
     const Scene scene = open_scene(options);
-    const RayCaster rays(scene, thread_count(options));
+    const RayCaster rays(scene, effort.threads);
     const AreaLights area_lights(scene);
     const LitScene lit = make_lit_scene(scene, rays, area_lights);
 

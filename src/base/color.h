@@ -12,9 +12,13 @@ namespace chiaro {
 using Rgb = Vec3;
 
 /// Y of linear Rec. 709: the one number in lux or cd/m2.
-inline float luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+inline float luminance(Rgb c) {
+    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+}
 
-inline float max_component(Rgb c) { return c.r > c.g ? (c.r > c.b ? c.r : c.b) : (c.g > c.b ? c.g : c.b); }
+inline float max_component(Rgb c) {
+    return c.r > c.g ? (c.r > c.b ? c.r : c.b) : (c.g > c.b ? c.g : c.b);
+}
 
 /// sRGB transfer function (IEC 61966-2-1), [0, 1] to [0, 1].
 inline float srgb_to_linear(float s) {

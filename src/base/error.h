@@ -1,5 +1,5 @@
-// The two failures that are not absence (absence is std::optional): what the outside world did wrong
-// is an Error, what we did wrong ends the program in check().
+// The two failures that are not absence (absence is std::optional): what the outside world did
+// wrong is an Error, what we did wrong ends the program in check().
 #pragma once
 
 #include <stdexcept>
@@ -7,8 +7,8 @@
 
 namespace chiaro {
 
-/// A fault of the outside world: a file, an option, a device. Thrown anywhere, caught only in apps/,
-/// printed there as the one line `where: what; remedy`.
+/// A fault of the outside world: a file, an option, a device. Thrown anywhere, caught only in
+/// apps/, printed there as the one line `where: what; remedy`.
 class Error : public std::runtime_error {
 public:
     /// `where`: the file or option, with the place in it ("room.obj:12"); `what`: what is wrong;

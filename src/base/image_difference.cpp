@@ -10,19 +10,24 @@ namespace {
 
 void check_comparable(const Image& a, const Image& b) {
     if (a.width != b.width || a.height != b.height)
-        throw Error("diff", "the pictures are " + std::to_string(a.width) + "x" +
-                                std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
-                                std::to_string(b.height), "compare pictures of one size");
+        throw Error("diff",
+                    "the pictures are " + std::to_string(a.width) + "x" + std::to_string(a.height) +
+                        " and " + std::to_string(b.width) + "x" + std::to_string(b.height),
+                    "compare pictures of one size");
     for (const Image* image : {&a, &b})
         for (const Rgb& pixel : image->pixels)
             if (!is_finite(pixel)) throw Error("diff", "a pixel is not a finite number");
 }
 
-double shown(double x) { return std::pow(1 - std::exp(-std::max(x, 0.0)), 1 / 2.2); }
+double shown(double x) {
+    return std::pow(1 - std::exp(-std::max(x, 0.0)), 1 / 2.2);
+}
 
 }  // namespace
 
-ImageDifference difference(const Image& a, const Image& b) { return difference(a, b, b); }
+ImageDifference difference(const Image& a, const Image& b) {
+    return difference(a, b, b);
+}
 
 ImageDifference difference(const Image& a, const Image& half_1, const Image& half_2) {
     check_comparable(a, half_1);

@@ -9,7 +9,7 @@ struct ImageDifference {
     double psnr = 0;    // of (1 - exp(-x))^(1/2.2) [dB]; infinite for equal pictures
     double relmse = 0;  // mean of (a - b)^2 / (b^2 + 0.01)
     double rmse = 0;
-    double k = 1;       // both pictures were multiplied by this: 0.4 / median non-zero luminance of b
+    double k = 1;  // both pictures were multiplied by this: 0.4 / median non-zero luminance of b
 };
 
 /// Error of linear picture `a` against `b`, over all pixels and colour channels, after both are

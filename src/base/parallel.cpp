@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <thread>
 
-// TBB's library is not instrumented, so ThreadSanitizer cannot see that it orders the fork before the
-// bodies and the bodies before the join: we say so.
+// TBB's library is not instrumented, so ThreadSanitizer cannot see that it orders the fork before
+// the bodies and the bodies before the join: we say so.
 #if defined(__SANITIZE_THREAD__)
 #define CHIARO_TSAN 1
 #elif defined(__has_feature)
@@ -42,7 +42,9 @@ struct FlushDenormals {
 
 }  // namespace
 
-int hardware_threads() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+int hardware_threads() {
+    return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
 
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& body) {
     if (threads <= 1 || count <= 1) {

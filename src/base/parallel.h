@@ -9,8 +9,8 @@ namespace chiaro {
 /// Number of threads that the machine runs at once (at least 1).
 int hardware_threads();
 
-/// Calls body(i) for i in [0, count), on up to `threads` threads, in no promised order; returns when
-/// all are done. Bodies write to places of their own, so that the result does not depend on
+/// Calls body(i) for i in [0, count), on up to `threads` threads, in no promised order; returns
+/// when all are done. Bodies write to places of their own, so that the result does not depend on
 /// `threads`. Denormals are flushed to zero in the body on every thread.
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& body);
 

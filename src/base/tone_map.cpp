@@ -9,7 +9,9 @@ namespace {
 constexpr float kContrast = 32;  // k of the s-shaped operator
 
 // Narkowicz's fit of a filmic curve (2015), of a luminance; 0.4 comes out near a mid grey.
-float filmic(float x) { return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f); }
+float filmic(float x) {
+    return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
+}
 
 }  // namespace
 
@@ -25,7 +27,9 @@ float paper_tone_value(Rgb color, float exposure) {
            2.0f / 16 * tumblin_s_curve(color.b * exposure);
 }
 
-float comparison_curve(float x) { return std::pow(1.0f - std::exp(-x), 1.0f / 2.2f); }
+float comparison_curve(float x) {
+    return std::pow(1.0f - std::exp(-x), 1.0f / 2.2f);
+}
 
 float comparison_slope(float x) {
     // Steeper than this only below 1/200 of the median, where nobody looks.
@@ -64,6 +68,15 @@ Image tone_mapped(const Image& linear, float exposure) {
     return result;
 }
 
-float exposure_from_ev(float ev) { return std::exp2(ev); }
+float automatic_exposure(const Image& linear) {
+    std::vector<float> values;
+    for (const Rgb& pixel : linear.pixels)
+        if (const float y = luminance(pixel); y > 0) values.push_back(y);
+    if (values.empty()) return 1;
+    const auto bright = values.begin() + values.size() * 9 / 10;
+    std::nth_element(values.begin(), bright, values.end());
+    constexpr float kOverWhite = 6;
+    return std::min(comparison_exposure(linear), kOverWhite / *bright);
+}
 
 }  // namespace chiaro

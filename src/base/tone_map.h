@@ -7,8 +7,8 @@
 namespace chiaro {
 
 /// The s-shaped operator of Tumblin, Hodgins and Guenter (TOG 18(1), 1999) for `x` = luminance over
-/// the adaptation luminance: (x + 1/k) / (x + k) with k = 32, that is a sigmoid in log x with 1/k at
-/// x = 1, rescaled so that 0 maps to 0. Result in [0, 1).
+/// the adaptation luminance: (x + 1/k) / (x + k) with k = 32, that is a sigmoid in log x with 1/k
+/// at x = 1, rescaled so that 0 maps to 0. Result in [0, 1).
 float tumblin_s_curve(float x);
 
 /// The paper's one number for a colour in 4.1: the operator a channel, weighted 5/16, 9/16, 2/16.
@@ -27,7 +27,8 @@ float comparison_exposure(const Image& image);
 /// [0, 1], encoded.
 Image tone_mapped(const Image& linear, float exposure);
 
-/// Exposure that shows the picture well: comparison_exposure() in stops, 2^EV multiplies.
-float exposure_from_ev(float ev);
+/// Exposure that shows `linear` well: its median becomes a mid grey, unless a tenth of the picture
+/// would then be over white, as where a bright room is seen from a dark one. 1 for a black picture.
+float automatic_exposure(const Image& linear);
 
 }  // namespace chiaro

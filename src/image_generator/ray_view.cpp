@@ -4,6 +4,8 @@
 #include "image_generator/view_fragments.h"
 #include "shading_cache/interpolate.h"
 
+#include <algorithm>
+
 namespace chiaro {
 namespace {
 
@@ -11,7 +13,7 @@ namespace {
 bool needs_more_rays(const std::vector<std::vector<CentreHit>>& centres, int x, int y,
                      float footprint) {
     const CentreHit& here = centres[y][x];
-    if (here.shines) return true;
+    if (here.intricate) return true;
     const int height = static_cast<int>(centres.size());
     const int width = static_cast<int>(centres[y].size());
     for (int dy = -1; dy <= 1; ++dy)
@@ -23,7 +25,19 @@ bool needs_more_rays(const std::vector<std::vector<CentreHit>>& centres, int x, 
     return false;
 }
 
-// The hits of two neighbours, beside and above or below, that lie on the same primitive as this pixel's.
+// Whether the pixel or one beside it shows something that emits. A sliver of a lamp makes a pixel
+// bright, so that 16 steps between none of it and all would be seen.
+bool touches_light(const std::vector<std::vector<CentreHit>>& centres, int x, int y) {
+    const int height = static_cast<int>(centres.size());
+    const int width = static_cast<int>(centres[y].size());
+    for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, height - 1); ++ny)
+        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, width - 1); ++nx)
+            if (centres[ny][nx].emissive) return true;
+    return false;
+}
+
+// The hits of two neighbours, beside and above or below, that lie on the same primitive as this
+// pixel's.
 struct Neighbours {
     const CentreHit* beside = nullptr;
     const CentreHit* below = nullptr;
@@ -34,7 +48,8 @@ Neighbours on_same_primitive(const std::vector<std::vector<CentreHit>>& centres,
         if (ny < 0 || ny >= static_cast<int>(centres.size())) return nullptr;
         if (nx < 0 || nx >= static_cast<int>(centres[ny].size())) return nullptr;
         const CentreHit& there = centres[ny][nx];
-        const bool one = there.object == here.object && there.point.primitive == here.point.primitive;
+        const bool one =
+            there.object == here.object && there.point.primitive == here.point.primitive;
         return one ? &there : nullptr;
     };
     Neighbours n{same(x + 1, y), same(x, y + 1)};
@@ -43,7 +58,8 @@ Neighbours on_same_primitive(const std::vector<std::vector<CentreHit>>& centres,
     return n;
 }
 
-// A row again, with 16 rays in each pixel that needs them, and textures averaged over the others.
+// A row again, with 16 rays or more in each pixel that needs them, and textures averaged over the
+// others.
 SeenRow refine_row(const RayCaster& rays, const View& view, int y, const SeenRow& coarse,
                    const std::vector<std::vector<CentreHit>>& centres, float footprint, Aov aov) {
     SeenRow row;
@@ -54,14 +70,15 @@ SeenRow refine_row(const RayCaster& rays, const View& view, int y, const SeenRow
         const Neighbours near = centre.textured ? on_same_primitive(centres, x, y) : Neighbours{};
         const bool cornered = centre.textured && !(near.beside && near.below);
         const bool more = cornered || needs_more_rays(centres, x, y, footprint);
-        if (more) see_pixel(rays, view, x, y, aov, row);
+        if (more) see_pixel(rays, view, x, y, touches_light(centres, x, y) ? 8 : 4, aov, row);
         for (; piece != coarse.pieces.end() && piece->x == static_cast<std::uint32_t>(x); ++piece) {
             if (more) continue;
             row.pieces.push_back(*piece);
             if (centre.textured && aov == Aov::radiance)
                 row.pieces.back().reflectance =
                     mean_base_color(rays.scene(), centre.point, near.beside->point,
-                                    near.below->point) / kPi;
+                                    near.below->point) /
+                    kPi;
         }
     }
     return row;
@@ -83,7 +100,8 @@ IdMap put_on_roots(ShadingCache& cache, const std::vector<SeenRow>& rows, const 
             const auto pixel = static_cast<std::uint32_t>(y * map.width + x);
             map.first_of_pixel.push_back(static_cast<std::uint32_t>(map.fragments.size()));
             map.background.pixels[pixel] = rows[y].background[x];
-            for (; piece != rows[y].pieces.end() && piece->x == static_cast<std::uint32_t>(x); ++piece)
+            for (; piece != rows[y].pieces.end() && piece->x == static_cast<std::uint32_t>(x);
+                 ++piece)
                 map.fragments.push_back(
                     {pixel, cache.root(piece->point.object, piece->point.primitive, piece->front),
                      Vec2(piece->point.u, piece->point.v), piece->reflectance});

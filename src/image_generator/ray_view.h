@@ -18,8 +18,8 @@ enum class Aov {
 
 /// How finely outlines and textures are looked at.
 enum class ViewQuality {
-    one_ray,       // a ray through each pixel's centre: for a view that is moving
-    antialiased,   // and 16 through each pixel with an outline or a texture
+    one_ray,      // a ray through each pixel's centre: for a view that is moving
+    antialiased,  // and 16 through each pixel with an outline, 64 at lamps; textures averaged
 };
 
 struct RayViewSettings {
@@ -28,9 +28,9 @@ struct RayViewSettings {
     int threads = 1;
 };
 
-/// The fragments that `view` shows, each on the root patch that holds it (made if new); attach() hands
-/// them down to the leaves. Single-sided faces are passed from behind; blended surfaces are composited
-/// front to back. Marks in `open_sides` what was seen, unless it is null.
+/// The fragments that `view` shows, each on the root patch that holds it (made if new); attach()
+/// hands them down to the leaves. Single-sided faces are passed from behind; blended surfaces are
+/// composited front to back. Marks in `open_sides` what was seen, unless it is null.
 IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
                   const RayViewSettings& settings, OpenSides* open_sides);
 

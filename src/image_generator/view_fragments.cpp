@@ -7,11 +7,11 @@
 namespace chiaro {
 namespace {
 
-// A ray on its way through surfaces that let the camera look on: what part of the pixel it still is.
+// A ray on its way through surfaces that let the camera look on: what part of the pixel it still
+// is.
 struct Looking {
     Ray ray;
     std::uint32_t x = 0;
-    std::uint32_t first = 0;  // which of the given rays it was
     float part = 1;
 };
 
@@ -24,8 +24,8 @@ struct Seen {
 
 constexpr int kMostLayers = 32;
 
-// Follows rays until they are stopped, and tells `see(looking, hit, seen, part)` of each surface that shows;
-// `part` is what of the pixel it takes.
+// Follows rays until they are stopped, and tells `see(looking, hit, seen, part)` of each surface
+// that shows; `part` is what of the pixel it takes.
 template <typename See>
 void look(const RayCaster& rays, std::vector<Looking> looking, const See& see) {
     const Scene& scene = rays.scene();
@@ -66,7 +66,8 @@ Rgb seen_reflectance(const Scene& scene, const Hit& hit, Aov aov, float part) {
     return Rgb(base_color(scene, hit.point)) * (part / kPi);
 }
 
-// Pieces of one pixel that lie on the same side of the same primitive become one, at their mean place.
+// Pieces of one pixel that lie on the same side of the same primitive become one, at their mean
+// place.
 void add_piece(std::vector<SeenPiece>& pieces, std::vector<float>& weights, std::size_t first,
                const SeenPiece& piece, float part) {
     for (std::size_t i = first; i < pieces.size(); ++i) {
@@ -97,7 +98,7 @@ SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
     std::vector<Looking> looking(view.width());
     for (int x = 0; x < view.width(); ++x)
         looking[x] = {view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f),
-                      static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(x), 1};
+                      static_cast<std::uint32_t>(x), 1};
 
     look(rays, std::move(looking),
          [&](const Looking& l, const Hit& hit, const Seen& at, float part) {
@@ -108,8 +109,15 @@ SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
                  row.background[l.x] += part * emission(scene, hit.point, hit.front);
              CentreHit& centre = centres[l.x];
              if (centre.object != ObjectId::none) return;
-             centre = {hit.point.object, at.id, hit.normal, at.position,
-                       hit.t, hit.point, m.base_color_texture.used(), m.emissive() || m.see_through()};
+             centre = {hit.point.object,
+                       at.id,
+                       hit.normal,
+                       at.position,
+                       hit.t,
+                       hit.point,
+                       m.base_color_texture.used(),
+                       m.emissive(),
+                       m.see_through() || m.emission_texture.used()};
          });
     // Layers were seen one after the other; a pixel's pieces belong together.
     std::stable_sort(row.pieces.begin(), row.pieces.end(),
@@ -117,17 +125,18 @@ SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
     return row;
 }
 
-void see_pixel(const RayCaster& rays, const View& view, int x, int y, Aov aov, SeenRow& row) {
-    constexpr int kSide = 4;
-    constexpr float kPart = 1.0f / (kSide * kSide);
-    // A rotated grid: 16 different heights and widths, so that edges near the axes are smooth too.
-    std::vector<Looking> looking(kSide * kSide);
-    for (int i = 0; i < kSide * kSide; ++i) {
-        const int a = i % kSide, b = i / kSide;
-        const float sx = (static_cast<float>(a) + (static_cast<float>(b) + 0.5f) / kSide) / kSide;
-        const float sy = (static_cast<float>(b) + (static_cast<float>(a) + 0.5f) / kSide) / kSide;
+void see_pixel(const RayCaster& rays, const View& view, int x, int y, int side, Aov aov,
+               SeenRow& row) {
+    // A rotated grid: as many different heights and widths as rays, so that edges near the axes are
+    // smooth too.
+    std::vector<Looking> looking(side * side);
+    const auto n = static_cast<float>(side);
+    for (int i = 0; i < side * side; ++i) {
+        const auto a = static_cast<float>(i % side), b = static_cast<float>(i / side);
+        const float sx = (a + (b + 0.5f) / n) / n;
+        const float sy = (b + (a + 0.5f) / n) / n;
         looking[i] = {view.ray(static_cast<float>(x) + sx, static_cast<float>(y) + sy),
-                      static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(i), kPart};
+                      static_cast<std::uint32_t>(x), 1 / (n * n)};
     }
     const Scene& scene = rays.scene();
     const std::size_t first = row.pieces.size();
@@ -154,18 +163,22 @@ Rgb mean_base_color(const Scene& scene, const SurfacePoint& here, const SurfaceP
         p.v = std::clamp(uv.y, 0.0f, 1.0f);
         return Rgb(base_color(scene, p));
     };
-    // Four places show whether there is any detail within the pixel; if so, sixteen resolve it.
+    // Four places, irregular so that no pattern falls in step with them, show whether there is any
+    // detail within the pixel; if so, sixteen resolve it.
+    constexpr std::array<Vec2, 4> kProbes = {Vec2(-0.37f, -0.21f), Vec2(0.29f, -0.38f),
+                                             Vec2(0.41f, 0.33f), Vec2(-0.18f, 0.27f)};
     Rgb sum(0), low(kInfinity), high(0);
-    for (int i = 0; i < 4; ++i) {
-        const Rgb c = color_at(i % 2 == 0 ? -0.3f : 0.3f, i < 2 ? -0.3f : 0.3f);
+    for (const Vec2 probe : kProbes) {
+        const Rgb c = color_at(probe.x, probe.y);
         sum += c;
         low = glm::min(low, c);
         high = glm::max(high, c);
     }
-    if (max_component(high - low) < 0.02f * max_component(high)) return 0.25f * sum;
+    if (max_component(high - low) <= 0.02f * max_component(high)) return 0.25f * sum;
     sum = Rgb(0);
     for (int i = 0; i < 16; ++i)
-        sum += color_at((static_cast<float>(i % 4) - 1.5f) / 4, (static_cast<float>(i / 4) - 1.5f) / 4);
+        sum += color_at((static_cast<float>(i % 4) - 1.5f) / 4,
+                        (static_cast<float>(i / 4) - 1.5f) / 4);
     return sum / 16.0f;
 }
 

@@ -9,10 +9,10 @@ namespace chiaro {
 
 /// A piece of one side of one primitive in one pixel.
 struct SeenPiece {
-    std::uint32_t x = 0;          // pixel in the row
-    SurfacePoint point;           // mean place of the rays that met it
+    std::uint32_t x = 0;  // pixel in the row
+    SurfacePoint point;   // mean place of the rays that met it
     bool front = true;
-    Rgb reflectance = Rgb(0);     // as Fragment::reflectance
+    Rgb reflectance = Rgb(0);  // as Fragment::reflectance
 };
 
 /// What the ray through a pixel's centre met first, to find outlines by.
@@ -24,7 +24,8 @@ struct CentreHit {
     float distance = 0;
     SurfacePoint point;
     bool textured = false;
-    bool shines = false;  // emissive or seen through: only rays tell how much of the pixel it fills
+    bool emissive = false;
+    bool intricate = false;  // seen through, or of textured emission: rays alone tell what it fills
 };
 
 struct SeenRow {
@@ -36,12 +37,13 @@ struct SeenRow {
 SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
                 std::vector<CentreHit>& centres);
 
-/// 16 rays through pixel (x, y), replacing what the centre's ray saw: appends to `row.pieces` and sets
-/// row.background[x].
-void see_pixel(const RayCaster& rays, const View& view, int x, int y, Aov aov, SeenRow& row);
+/// side x side rays through pixel (x, y), replacing what the centre's ray saw: appends to
+/// `row.pieces` and sets row.background[x].
+void see_pixel(const RayCaster& rays, const View& view, int x, int y, int side, Aov aov,
+               SeenRow& row);
 
-/// Mean base colour over a pixel that shows one primitive alone, from the surface points that its own
-/// centre and those of two neighbours show, to the side and below or above.
+/// Mean base colour over a pixel that shows one primitive alone, from the surface points that its
+/// own centre and those of two neighbours show, to the side and below or above.
 Rgb mean_base_color(const Scene& scene, const SurfacePoint& here, const SurfacePoint& beside,
                     const SurfacePoint& below);
 

@@ -40,14 +40,15 @@ void add_punctual_sample(const LitScene& lit, const Receiver& receiver, const Se
 
 void add_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t replicate,
              std::uint32_t block, PathWave& wave) {
-    const Vec3 direction = sample_receiving_cosine(
-        receiver, sequence.sparse_pair(replicate, block, kLightDirection));
+    const Vec3 direction =
+        sample_receiving_cosine(receiver, sequence.sparse_pair(replicate, block, kLightDirection));
     wave.add({receiver.origin, direction},
              {.pdf = pdf_receiving_cosine(receiver, direction), .slot = replicate});
 }
 
 // Emission that the cosine-distributed rays met. Each stands for kLightSamplesPerRay samples.
-void settle_rays(const LitScene& lit, PathWave& wave, std::span<Rgb, kReplicates> sums) {
+void settle_rays(const LitScene& lit, const Receiver& receiver, PathWave& wave,
+                 std::span<Rgb, kReplicates> sums) {
     wave.hits.resize(wave.rays.size());
     lit.caster.intersect(wave.rays, wave.hits);
     for (std::size_t i = 0; i < wave.rays.size(); ++i) {
@@ -56,7 +57,8 @@ void settle_rays(const LitScene& lit, PathWave& wave, std::span<Rgb, kReplicates
         if (radiance == Rgb(0)) continue;
         const Path& path = wave.paths[i];
         const float of_light =
-            kLightSamplesPerRay * pdf_area_light(lit, wave.hits[i], wave.rays[i].direction);
+            kLightSamplesPerRay *
+            pdf_area_light(lit, lit_place(receiver), wave.rays[i].direction, wave.hits[i]);
         sums[path.slot] +=
             radiance * (kPi * kLightSamplesPerRay * path.pdf / (of_light + path.pdf));
     }
@@ -92,7 +94,7 @@ void add_direct_samples(const LitScene& lit, const Receiver& receiver, std::uint
             if (traces_ray(seed, replicate, index))
                 add_ray(receiver, sequence, replicate, index / kLightSamplesPerRay, scratch);
         }
-        settle_rays(lit, scratch, sums);
+        settle_rays(lit, receiver, scratch, sums);
     }
     if (!few_punctual_lights(lit) && lit.choice.any_punctual())
         for (std::uint32_t i = first; i < first + count; ++i)

@@ -11,12 +11,12 @@ void start_paths(const Receiver& receiver, std::uint32_t seed, std::uint32_t fir
     const Sequence sequence(seed);
     wave.clear();
     for (std::uint32_t i = first; i < first + count; ++i) {
-        wave.add({receiver.origin,
-                  sample_receiving_cosine(receiver, sequence.pair(i, kFirstDirection))},
-                 {.slot = i % kReplicates,
-                  .key = sample_key(seed, i),
-                  .light_place = sequence.pair(i, kFirstLightPlace),
-                  .light_choice = sequence.number(i, kFirstLightChoice)});
+        wave.add(
+            {receiver.origin, sample_receiving_cosine(receiver, sequence.pair(i, kFirstDirection))},
+            {.slot = i % kReplicates,
+             .key = sample_key(seed, i),
+             .light_place = sequence.pair(i, kFirstLightPlace),
+             .light_choice = sequence.number(i, kFirstLightChoice)});
     }
 }
 

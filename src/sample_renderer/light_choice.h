@@ -8,7 +8,8 @@
 
 namespace chiaro {
 
-/// Discrete choice among the area lights as one and each punctual light.
+/// Discrete choice among the area lights as one and each punctual light, the same everywhere; which
+/// area light is asked depends on the place (AreaLights::sample()).
 ///
 /// Thread: const calls from any number of threads.
 class LightChoice {

@@ -22,8 +22,10 @@ float pdf_receiving_cosine(const Receiver& receiver, Vec3 w) {
 }
 
 std::optional<LightConnection> connect_area_light(const LitScene& lit, const Receiver& receiver,
-                                                  float choice, Vec2 place) {
-    const AreaLightSample sample = lit.area_lights.sample(choice, place);
+                                                  float choice, Vec2 spot) {
+    const auto chosen = lit.area_lights.sample(lit_place(receiver), choice, spot);
+    if (!chosen) return std::nullopt;
+    const AreaLightSample& sample = *chosen;
     const Vec3 between = sample.position - receiver.position;
     const float squared = glm::dot(between, between);
     if (!(squared > 0)) return std::nullopt;
@@ -63,10 +65,11 @@ std::optional<LightConnection> connect_punctual(const LitScene& lit, const Recei
     return connection;
 }
 
-float pdf_area_light(const LitScene& lit, const Hit& hit, Vec3 direction) {
-    const float pdf_area = lit.area_lights.pdf(hit.point.object, hit.point.primitive);
+float pdf_area_light(const LitScene& lit, const LitPlace& from, Vec3 direction, const Hit& hit) {
     const float cosine = std::abs(glm::dot(hit.normal, direction));
-    return cosine > 0 ? pdf_area * hit.t * hit.t / cosine : 0.0f;
+    if (!(cosine > 0)) return 0;
+    const float pdf_area = lit.area_lights.pdf(from, hit.point.object, hit.point.primitive);
+    return pdf_area * hit.t * hit.t / cosine;
 }
 
 }  // namespace chiaro

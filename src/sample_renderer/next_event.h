@@ -25,14 +25,21 @@ struct Receiver {
 Receiver make_receiver(const RayCaster& caster, ObjectId object, Vec3 position,
                        Vec3 geometric_normal, Vec3 shading_normal);
 
+/// What lights are chosen for: rays start at the lifted origin, and nothing below the real plane
+/// counts.
+inline LitPlace lit_place(const Receiver& receiver) {
+    return {receiver.origin, receiver.geometric_normal};
+}
+
 /// `w` mirrored at the receiver's real plane.
 inline Vec3 mirrored(const Receiver& receiver, Vec3 w) {
     return w - 2 * glm::dot(receiver.geometric_normal, w) * receiver.geometric_normal;
 }
 
-/// What light from unit direction `w` counts for in irradiance: the cosine about the shading normal.
-/// The part of its hemisphere that lies below the real plane is folded up, so that the whole
-/// is pi on any surface and no light is lost where normals are interpolated; 0 below that plane.
+/// What light from unit direction `w` counts for in irradiance: the cosine about the shading
+/// normal. The part of its hemisphere that lies below the real plane is folded up, so that the
+/// whole is pi on any surface and no light is lost where normals are interpolated; 0 below that
+/// plane.
 inline float receiving_cosine(const Receiver& receiver, Vec3 w) {
     if (glm::dot(receiver.geometric_normal, w) <= 0) return 0;
     return std::max(0.0f, glm::dot(receiver.shading_normal, w)) +
@@ -52,17 +59,17 @@ struct LightConnection {
     float pdf_cosine = 0;  // of the direction, by sampling the cosine at the receiver
 };
 
-/// A point of the area lights; nothing if it cannot shine on the receiver. `choice` and `place` as
+/// A point of the area lights; nothing if it cannot shine on the receiver. `choice` and `spot` as
 /// AreaLights::sample() has them. Checks: there are area lights.
 std::optional<LightConnection> connect_area_light(const LitScene& lit, const Receiver& receiver,
-                                                  float choice, Vec2 place);
+                                                  float choice, Vec2 spot);
 
 /// Punctual light `index`; nothing if it cannot shine on the receiver.
 std::optional<LightConnection> connect_punctual(const LitScene& lit, const Receiver& receiver,
                                                 int index);
 
-/// Density over solid angle with which connect_area_light() takes the direction in which a ray of
-/// unit direction left `t` behind and met `hit`.
-float pdf_area_light(const LitScene& lit, const Hit& hit, Vec3 direction);
+/// Density over solid angle with which connect_area_light() takes `direction` at `from`, the
+/// lit_place() of a receiver, where a ray of that unit direction met `hit`.
+float pdf_area_light(const LitScene& lit, const LitPlace& from, Vec3 direction, const Hit& hit);
 
 }  // namespace chiaro

@@ -34,8 +34,8 @@ MetSurface describe(const LitScene& lit, const Ray& ray, const Hit& hit) {
 // Emission that a ray of a path met by chance, which next event estimation at its origin may have
 // found too.
 Rgb met_emission(const LitScene& lit, const Path& path, const Ray& ray, const Hit& hit) {
-    const float pdf_light =
-        lit.choice.probability_of_area_lights() * pdf_area_light(lit, hit, ray.direction);
+    const float pdf_light = lit.choice.probability_of_area_lights() *
+                            pdf_area_light(lit, {ray.origin, path.normal}, ray.direction, hit);
     const float weight = path.pdf / (path.pdf + pdf_light);
     return path.throughput * weight * emission(lit.scene, hit.point, hit.front);
 }
@@ -63,6 +63,7 @@ bool scatter(const Receiver& receiver, Rgb reflected, BounceNumbers& numbers, Pa
     ray = {receiver.origin, sample_receiving_cosine(receiver, numbers.next_pair())};
     path.throughput = reflected * (1 / survival);
     path.pdf = pdf_receiving_cosine(receiver, ray.direction);
+    path.normal = receiver.geometric_normal;
     return true;
 }
 

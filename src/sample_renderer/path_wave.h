@@ -14,6 +14,7 @@ struct Path {
     std::uint32_t key = 0;   // names its random numbers after the first hit's
     Vec2 light_place = {};   // at the first hit
     float light_choice = 0;
+    Vec3 normal = Vec3(0);  // LitPlace's, where the ray started; after the first hit
 };
 
 /// Shadow rays on the way, and what each brings to which sum if nothing blocks it.

@@ -8,32 +8,34 @@
 namespace chiaro {
 namespace {
 
-// From the surplus of a patch's corners to that expected at its midpoints: between a smooth function
-// (1/4) and a kink (1/2 to 1). The range counts for less: a gradient is no error.
+// From the surplus of a patch's corners to that expected at its midpoints: between a smooth
+// function (1/4) and a kink (1/2 to 1). The range counts for less: a gradient is no error.
 constexpr float kSurplusNext = 0.35f;
 constexpr float kRangeNext = 0.14f;
 
 // A patch whose corners are partly buried holds a contact line, whose shading no corner shows.
 constexpr float kContact = 0.25f;
 
-// Error on the curve's scale of a patch of which next to nothing is known, its corners being buried.
+// Error on the curve's scale of a patch of which next to nothing is known, its corners being
+// buried.
 constexpr float kUnseen = 0.2f;
 
 // New vertices a division makes on average, neighbours sharing the midpoints.
 constexpr float kNewInFour = 3;
 constexpr float kNewAcross = 1.5f;
 
-// Samples a vertex may take in all; its variance is then far below what a display resolves.
+// Samples that a new vertex may start with, and that any may take in all: variance is then far
+// below what a display resolves.
 constexpr std::uint32_t kMostOfNew = 4096;
-constexpr std::uint32_t kMostSamples = 1u << 18;
+constexpr std::uint32_t kMostSamples = 1u << 17;
 
 // What the corners say together.
 struct Corners {
-    float light = 0;         // mean luminance of all channels
-    float low = kInfinity;   // range of the channel
+    float light = 0;        // mean luminance of all channels
+    float low = kInfinity;  // range of the channel
     float high = -kInfinity;
-    float surplus2 = 0;      // mean squared surplus of the channel
-    float variance = 0;      // mean variance of the channel
+    float surplus2 = 0;  // mean squared surplus of the channel
+    float variance = 0;  // mean variance of the channel
     int buried = 0;
     int count = 0;
 };
@@ -69,11 +71,11 @@ bool on_front(const ShadingCache& cache, PatchId id, int channel) {
 std::uint32_t samples_of_new(const ShadingCache& cache, PatchId id, int channel,
                              const GainSettings& settings) {
     const Patch& patch = cache.patch(id);
-    std::uint32_t fewest = kMostOfNew;
+    std::uint32_t fewest = 0;
     for (int i = 0; i < patch.corner_count(); ++i)
         if (const Estimate* e = cache.estimate(patch.corners[i], channel))
-            fewest = std::min(fewest, e->samples);
-    return std::max(fewest, settings.first_samples[channel]);
+            fewest = fewest == 0 ? e->samples : std::min<std::uint32_t>(fewest, e->samples);
+    return std::clamp(fewest, settings.first_samples[channel], kMostOfNew);
 }
 
 Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings& settings) {
@@ -90,15 +92,18 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
     Gain result;
     if (patch.fragment_count > 1) {
         const float spread = corners.high - corners.low;
-        float error2 = kSurplusNext * kSurplusNext * corners.surplus2 +
-                       kRangeNext * kRangeNext * std::max(0.0f, spread * spread - 9 * corners.variance);
+        float error2 =
+            kSurplusNext * kSurplusNext * corners.surplus2 +
+            kRangeNext * kRangeNext * std::max(0.0f, spread * spread - 9 * corners.variance);
         if (corners.buried > 0 && corners.buried < corners.count)
             error2 += kContact * kContact * corners.light * corners.light;
         float seen2 = error2 * slope * slope + settings.epsilon * settings.epsilon;
         if (corners.buried + 1 >= corners.count) seen2 += kUnseen * kUnseen;
-        const bool across = patch.split == Split::quad_across_s || patch.split == Split::quad_across_t;
+        const bool across =
+            patch.split == Split::quad_across_s || patch.split == Split::quad_across_t;
         const float points = across ? kNewAcross : kNewInFour;
-        const float cost = points * static_cast<float>(samples_of_new(cache, id, channel, settings)) *
+        const float cost = points *
+                           static_cast<float>(samples_of_new(cache, id, channel, settings)) *
                            settings.seconds_a_sample[channel];
         result.refine = seen2 * fragments / cost;
     }

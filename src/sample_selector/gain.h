@@ -1,5 +1,5 @@
-// What evaluating more would gain, for the best scheme: expected drop of squared error on the screen
-// over its cost.
+// What evaluating more would gain, for the best scheme: expected drop of squared error on the
+// screen over its cost.
 #pragma once
 
 #include "shading_cache/shading_cache.h"
@@ -10,16 +10,17 @@ namespace chiaro {
 
 /// Costs and scales that gains are reckoned with.
 struct GainSettings {
-    float exposure = 1;       // radiance to the scale of comparison_curve()
-    float epsilon = 0.001f;   // error that is suspected everywhere, on the curve's scale (4.3)
-    std::array<float, 8> seconds_a_sample{};        // a channel
-    std::array<std::uint32_t, 8> first_samples{};   // a channel: the fewest that a vertex starts with
+    float exposure = 1;      // radiance to the scale of comparison_curve()
+    float epsilon = 0.001f;  // error that is suspected everywhere, on the curve's scale (4.3)
+    std::array<float, 8> seconds_a_sample{};  // a channel
+    std::array<std::uint32_t, 8>
+        first_samples{};  // a channel: the fewest that a vertex starts with
 };
 
-/// Two ways to spend on a patch of a channel's front: evaluate its midpoints, or take more samples at
-/// its noisiest corner.
+/// Two ways to spend on a patch of a channel's front: evaluate its midpoints, or take more samples
+/// at its noisiest corner.
 struct Gain {
-    float refine = 0;    // squared error times fragments a second, >= 0
+    float refine = 0;  // squared error times fragments a second, >= 0
     float resample = 0;
     VertexId noisiest = VertexId::none;
 
@@ -29,8 +30,8 @@ struct Gain {
 /// True if `patch` belongs to the front of `channel`: its ancestors are refined and it is not.
 bool on_front(const ShadingCache& cache, PatchId patch, int channel);
 
-/// Samples with which a vertex within `patch` starts: as many as its corners have, within limits, for
-/// among well-known vertices a noisy one would do harm.
+/// Samples with which a vertex within `patch` starts: as many as its corners have, within limits,
+/// for among well-known vertices a noisy one would do harm.
 std::uint32_t samples_of_new(const ShadingCache& cache, PatchId patch, int channel,
                              const GainSettings& settings);
 

@@ -9,8 +9,9 @@
 
 namespace chiaro {
 
-/// Priority of a leaf: the largest minus the smallest tone-mapped colour of its corners, at `exposure`
-/// and the patch's reflectance, in [0, 1]. A leaf with a corner that was never shaded: 1.
+/// Priority of a leaf: the largest minus the smallest tone-mapped colour of its corners, at
+/// `exposure` and the patch's reflectance, in [0, 1]. A leaf with a corner that was never
+/// shaded: 1.
 float interpolation_error(const ShadingCache& cache, const Patch& leaf, float exposure);
 
 /// Priorities by pixel, made lazily for the leaves that cover one.
@@ -30,8 +31,8 @@ struct PriorityMap {
 /// A pixel on an outline, which shows several leaves, stands for the first of them.
 PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map, float exposure);
 
-/// The priorities that 4.2 maps to 0 and 1: four standard deviations below and above the average, each
-/// visible patch counting once.
+/// The priorities that 4.2 maps to 0 and 1: four standard deviations below and above the average,
+/// each visible patch counting once.
 struct PriorityRange {
     float low;
     float high;

@@ -69,8 +69,8 @@ std::vector<SelectedPixel> flood_fill(const PriorityMap& map,
 
 std::vector<SelectedPixel> select_samples(const PriorityMap& map, const SelectionSettings& settings,
                                           Rng& rng) {
-    const auto flooded = static_cast<std::size_t>(static_cast<float>(settings.sample_count) *
-                                                  settings.flood_share);
+    const auto flooded =
+        static_cast<std::size_t>(static_cast<float>(settings.sample_count) * settings.flood_share);
     auto selected = hit_and_test(map, settings.sample_count - flooded, settings.epsilon, rng);
     const auto filled = flood_fill(map, selected, settings.sample_count - selected.size());
     selected.insert(selected.end(), filled.begin(), filled.end());

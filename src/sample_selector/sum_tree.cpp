@@ -6,83 +6,94 @@
 #include <cmath>
 
 namespace chiaro {
+namespace {
+
+// The entry of [first, last) in which `rest` ends, less what comes before it. Rounding may carry
+// `rest` past the end: the last positive entry then stands for it.
+template <typename Sums>
+std::size_t pick(const Sums& sums, std::size_t first, std::size_t last, double& rest) {
+    std::size_t chosen = first;
+    for (std::size_t k = first; k < last; ++k) {
+        const auto weight = static_cast<double>(static_cast<float>(sums[k]));
+        if (!(weight > 0)) continue;
+        chosen = k;
+        if (rest < weight) break;
+        rest -= weight;
+    }
+    return chosen;
+}
+
+}  // namespace
+
+template <typename Below>
+float SumTree::sum_of(const Below& below, std::size_t parent) {
+    const std::size_t last = std::min((parent + 1) * kFan, below.size());
+    float sum = 0;
+    for (std::size_t k = parent * kFan; k < last; ++k) sum += below[k];
+    return sum;
+}
+
+void SumTree::clear() {
+    weights_.clear();
+    sums_.clear();
+}
 
 void SumTree::resize(std::size_t count) {
-    if (count == 0) return;
-    if (levels_.empty()) levels_.emplace_back();
-    for (std::size_t level = 0;; ++level) {
-        auto& sums = levels_[level];
-        if (sums.capacity() < count) sums.reserve(count + count / 8);
-        sums.resize(count, 0.0f);
-        if (count <= kFan) break;
-        count = (count + kFan - 1) / kFan;
-        if (level + 1 < levels_.size()) continue;
+    if (weights_.capacity() < count) weights_.reserve(count + count / 32 + 64);
+    weights_.resize(std::max(count, weights_.size()));
+    std::size_t below = weights_.size();
+    for (std::size_t level = 0; below > 1; ++level) {
+        below = (below + kFan - 1) / kFan;
+        if (level < sums_.size()) {
+            sums_[level].resize(below, 0.0f);
+            continue;
+        }
         // A new top level: its sums are of weights that are there already.
-        std::vector<float> above(count, 0.0f);
-        for (std::size_t i = 0; i < sums.size(); ++i) above[i / kFan] += sums[i];
-        levels_.push_back(std::move(above));
+        std::vector<float> sums(below);
+        for (std::size_t i = 0; i < below; ++i)
+            sums[i] = level == 0 ? sum_of(weights_, i) : sum_of(sums_[level - 1], i);
+        sums_.push_back(std::move(sums));
     }
 }
 
-void SumTree::assign(std::vector<float> weights) {
-    for (const float w : weights)
+void SumTree::assign(std::span<const float> weights) {
+    clear();
+    weights_.reserve(weights.size());
+    for (const float w : weights) {
         check(w >= 0 && std::isfinite(w), "SumTree: weights are finite and not negative");
-    levels_.clear();
-    if (weights.empty()) return;
-    levels_.push_back(std::move(weights));
-    while (levels_.back().size() > kFan) {
-        const auto& below = levels_.back();
-        std::vector<float> above((below.size() + kFan - 1) / kFan, 0.0f);
-        for (std::size_t i = 0; i < below.size(); ++i) above[i / kFan] += below[i];
-        levels_.push_back(std::move(above));
+        weights_.emplace_back(w);
     }
+    resize(weights_.size());
 }
 
 void SumTree::set(std::size_t i, float weight) {
     check(weight >= 0 && std::isfinite(weight), "SumTree: weights are finite and not negative");
-    levels_.front()[i] = weight;
-    for (std::size_t level = 1; level < levels_.size(); ++level) {
-        const auto& below = levels_[level - 1];
-        const std::size_t first = i / kFan * kFan;
-        const std::size_t last = std::min(first + kFan, below.size());
-        float sum = 0;
-        for (std::size_t k = first; k < last; ++k) sum += below[k];
+    weights_[i] = weight;
+    for (std::size_t level = 0; level < sums_.size(); ++level) {
         i /= kFan;
-        levels_[level][i] = sum;
+        sums_[level][i] = level == 0 ? sum_of(weights_, i) : sum_of(sums_[level - 1], i);
     }
 }
 
 double SumTree::total() const {
-    double sum = 0;
-    if (!levels_.empty())
-        for (const float w : levels_.back()) sum += w;
-    return sum;
+    if (!sums_.empty()) return sums_.back().front();
+    return weights_.empty() ? 0.0 : static_cast<float>(weights_.front());
 }
 
 std::size_t SumTree::draw(float u) const {
     check(total() > 0, "SumTree: nothing to draw");
     double rest = u * total();
     std::size_t first = 0;
-    for (std::size_t level = levels_.size(); level-- > 0;) {
-        const auto& sums = levels_[level];
-        const std::size_t last =
-            level + 1 == levels_.size() ? sums.size() : std::min(first + kFan, sums.size());
-        // Rounding may carry `rest` past the end: the last positive weight then stands for it.
-        std::size_t chosen = first;
-        for (std::size_t k = first; k < last; ++k) {
-            if (!(sums[k] > 0)) continue;
-            chosen = k;
-            if (rest < sums[k]) break;
-            rest -= sums[k];
-        }
-        first = level == 0 ? chosen : chosen * kFan;
+    for (std::size_t level = sums_.size(); level-- > 0;) {
+        const std::size_t last = std::min(first + kFan, sums_[level].size());
+        first = pick(sums_[level], first, last, rest) * kFan;
     }
-    return first;
+    return pick(weights_, first, std::min(first + kFan, weights_.size()), rest);
 }
 
 std::size_t SumTree::bytes() const {
-    std::size_t total = 0;
-    for (const auto& level : levels_) total += level.capacity() * sizeof(float);
+    std::size_t total = weights_.capacity() * sizeof(Bfloat16);
+    for (const auto& level : sums_) total += level.capacity() * sizeof(float);
     return total;
 }
 

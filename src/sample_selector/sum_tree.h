@@ -1,25 +1,28 @@
 // Random choice in proportion to a weight, where weights change one at a time.
 #pragma once
 
+#include "base/bfloat16.h"
+
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace chiaro {
 
 /// Non-negative weights by index, with their sums in a tree of fan-out 16: setting one and drawing
-/// one both cost a few cache lines, however many there are; 4.3 bytes a weight. Sums are always made
-/// anew from their parts, so that no rounding error gathers.
+/// one both cost a few cache lines, however many there are; 2.3 bytes a weight, kept to 8 bits.
+/// Sums are always made anew from their parts, so that no rounding error gathers.
 class SumTree {
 public:
     /// Grows with weights of 0; never shrinks except by clear().
     void resize(std::size_t count);
-    void clear() { levels_.clear(); }
-    std::size_t size() const { return levels_.empty() ? 0 : levels_.front().size(); }
+    void clear();
+    std::size_t size() const { return weights_.size(); }
 
     /// Sets all weights at once: as resize() and set() for each, but in one pass.
-    void assign(std::vector<float> weights);
+    void assign(std::span<const float> weights);
 
-    float weight(std::size_t i) const { return levels_.front()[i]; }
+    float weight(std::size_t i) const { return weights_[i]; }
     void set(std::size_t i, float weight);
     double total() const;
 
@@ -31,7 +34,11 @@ public:
 
 private:
     static constexpr std::size_t kFan = 16;
-    std::vector<std::vector<float>> levels_;  // [0] the weights, each further level sums of kFan
+    template <typename Below>
+    static float sum_of(const Below& below, std::size_t parent);
+
+    std::vector<Bfloat16> weights_;
+    std::vector<std::vector<float>> sums_;  // each entry of kFan below it; [0] of weights
 };
 
 }  // namespace chiaro

@@ -22,14 +22,12 @@ float weight_of(Rgb color) {
     return luminance(color) + 1e-6f * max_component(color);
 }
 
-// Luminous exitance of each material, zero where it is dark: a texture's mean is taken once.
-std::vector<float> exitances(const Scene& scene) {
+// Luminance of each material's lit sides, zero where it is dark: a texture's mean is taken once.
+std::vector<float> luminances(const Scene& scene) {
     std::vector<float> result(scene.materials.size(), 0.0f);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        if (!material.emissive()) continue;
-        const float sides = material.emits_backward ? 2.0f : 1.0f;
-        result[i] = kPi * sides * weight_of(mean_emission(scene, material));
+        if (material.emissive()) result[i] = weight_of(mean_emission(scene, material));
     }
     return result;
 }
@@ -43,29 +41,42 @@ Vec2 square_to_triangle(Vec2 place) {
 }  // namespace
 
 AreaLights::AreaLights(const Scene& scene) : scene_(&scene), light_of_(scene.objects.size()) {
-    const std::vector<float> exitance = exitances(scene);
-    for (std::size_t o = 0; o < scene.objects.size(); ++o)
-        if (scene.objects[o].mesh != MeshId::none) add_object(static_cast<ObjectId>(o), exitance);
-    normalize();
+    const std::vector<float> luminance_of = luminances(scene);
+    std::vector<LightBounds> bounds;
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+        if (scene.objects[o].mesh == MeshId::none) continue;
+        const auto more = add_object(static_cast<ObjectId>(o), luminance_of);
+        bounds.insert(bounds.end(), more.begin(), more.end());
+    }
+
+    // Sums in double, however many there are. Clusters get shares, which no unit can make too
+    // large.
+    double power = 0;
+    for (const LightBounds& b : bounds)
+        power += double(kPi) * (b.two_sided ? 2 : 1) * double(b.intensity);
+    power_ = static_cast<float>(power);
+    for (LightBounds& b : bounds) b.intensity = static_cast<float>(b.intensity / power);
+    clusters_ = LightClusters(bounds);
 }
 
-void AreaLights::add_object(ObjectId object, const std::vector<float>& exitances) {
+std::vector<LightBounds> AreaLights::add_object(ObjectId object,
+                                                const std::vector<float>& luminances) {
+    std::vector<LightBounds> bounds;
     const auto& primitives = scene_->mesh_of(scene_->objects[index_of(object)]).primitives;
     for (std::uint32_t p = 0; p < primitives.size(); ++p) {
-        const float exitance = exitances[index_of(primitives[p].material)];
-        if (!(exitance > 0)) continue;
+        const float luminance = luminances[index_of(primitives[p].material)];
+        if (!(luminance > 0)) continue;
         const float area = primitive_area(*scene_, object, p);
         if (!(area > 0)) continue;
 
-        // Its share in the choice for now; normalize() divides by the power of all.
-        Light light = make_light(*scene_, {object, p, 0, 0}, area);
-        light.pdf_area = exitance;
         std::vector<std::uint32_t>& lights = light_of_[index_of(object)];
         if (lights.empty()) lights.assign(primitives.size(), kDark);
         lights[p] = static_cast<std::uint32_t>(lights_.size());
-        lights_.push_back(light);
-        cumulative_.push_back(area * exitance);
+        lights_.push_back(make_light(*scene_, {object, p, 0, 0}, area));
+        const bool two_sided = scene_->material(primitives[p].material).emits_backward;
+        bounds.push_back(bounds_of(lights_.back(), two_sided, luminance * area));
     }
+    return bounds;
 }
 
 AreaLights::Light AreaLights::make_light(const Scene& scene, const SurfacePoint& where,
@@ -82,6 +93,7 @@ AreaLights::Light AreaLights::make_light(const Scene& scene, const SurfacePoint&
     light.quad = primitive.is_quad();
     for (int c = 0; c < primitive.corner_count(); ++c)
         light.corners[c] = Vec3(object.to_world * Vec4(mesh.positions[primitive.corners[c]], 1));
+    light.inverse_area = 1 / area;
     light.normals[0] = normal_at(0.25f);
     const Material& material = scene.material(primitive.material);
     light.plain = !material.emission_texture.used() && !material.see_through();
@@ -98,14 +110,18 @@ AreaLights::Light AreaLights::make_light(const Scene& scene, const SurfacePoint&
     return light;
 }
 
-void AreaLights::normalize() {
-    // Sums in double: the last light must end at 1 however many there are.
-    double sum = 0;
-    for (const float power : cumulative_) sum += power;
-    power_ = static_cast<float>(sum);
-    double up_to = 0;
-    for (float& entry : cumulative_) entry = static_cast<float>((up_to += entry) / sum);
-    for (Light& light : lights_) light.pdf_area = static_cast<float>(light.pdf_area / sum);
+LightBounds AreaLights::bounds_of(const Light& light, bool two_sided, float intensity) {
+    LightBounds first;
+    for (int c = 0; c < (light.quad ? 4 : 3); ++c) first.box.add(light.corners[c]);
+    first.axis = light.normals[0];
+    first.two_sided = two_sided;
+    first.intensity = intensity;
+    if (!light.quad) return first;
+    LightBounds second = first;
+    second.axis = light.normals[1];
+    LightBounds both = merge(first, second);
+    both.intensity = intensity;
+    return both;
 }
 
 Rgb AreaLights::eval(const AreaLightSample& sample, Vec3 direction) const {
@@ -123,32 +139,41 @@ Rgb AreaLights::eval(const AreaLightSample& sample, Vec3 direction) const {
     return alpha >= material.alpha_cutoff ? radiance : Rgb(0);
 }
 
-AreaLightSample AreaLights::sample(float choice, Vec2 place) const {
+std::optional<AreaLightSample> AreaLights::sample(const LitPlace& place, float choice,
+                                                  Vec2 spot) const {
     check(!lights_.empty(), "AreaLights: nothing to sample");
-    std::size_t index = 0;
+    // One variable for every return, built where the caller gets it: a copy would cost as much as
+    // the rest.
+    std::optional<AreaLightSample> result;
+    LightClusters::Choice chosen = {0, 1};
     if (lights_.size() > 1) {
-        const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), choice);
-        index = std::min<std::size_t>(found - cumulative_.begin(), lights_.size() - 1);
+        const auto found = clusters_.sample(place, choice);
+        if (!found) return result;
+        chosen = *found;
     }
-    const Light& light = lights_[index];
+    result.emplace();
+    const Light& light = lights_[chosen.light];
+    result->point = light.where;
+    result->light = chosen.light;
+    result->pdf_area = chosen.probability * light.inverse_area;
+    place_on(light, spot, *result);
+    return result;
+}
 
-    AreaLightSample result;
-    result.point = light.where;
-    result.pdf_area = light.pdf_area;
-    result.light = static_cast<std::uint32_t>(index);
-
+// Evenly over the light's area.
+inline void AreaLights::place_on(const Light& light, Vec2 spot, AreaLightSample& result) {
     // The (u, v) of the primitive. Where half a quad was chosen first, the number used is spread
     // again.
     Vec2 uv;
     if (!light.quad) {
-        uv = square_to_triangle(place);
+        uv = square_to_triangle(spot);
     } else if (light.parallelogram) {
-        uv = place;
-    } else if (place.x < light.first_half) {
-        uv = square_to_triangle({place.x / light.first_half, place.y});
+        uv = spot;
+    } else if (spot.x < light.first_half) {
+        uv = square_to_triangle({spot.x / light.first_half, spot.y});
     } else {
-        const float rest = (place.x - light.first_half) / (1 - light.first_half);
-        uv = Vec2(1) - square_to_triangle({std::min(rest, 1.0f), place.y});
+        const float rest = (spot.x - light.first_half) / (1 - light.first_half);
+        uv = Vec2(1) - square_to_triangle({std::min(rest, 1.0f), spot.y});
     }
     result.point.u = uv.x;
     result.point.v = uv.y;
@@ -163,13 +188,13 @@ AreaLightSample AreaLights::sample(float choice, Vec2 place) const {
         result.position = c[0] + uv.x * (c[1] - c[0]) + uv.y * (c[3] - c[0]);
     else
         result.position = c[2] + (1 - uv.x) * (c[3] - c[2]) + (1 - uv.y) * (c[1] - c[2]);
-    return result;
 }
 
-float AreaLights::pdf(ObjectId object, std::uint32_t primitive) const {
+float AreaLights::pdf(const LitPlace& place, ObjectId object, std::uint32_t primitive) const {
     const std::vector<std::uint32_t>& lights = light_of_[index_of(object)];
     if (lights.empty() || lights[primitive] == kDark) return 0;
-    return lights_[lights[primitive]].pdf_area;
+    const std::uint32_t light = lights[primitive];
+    return clusters_.pdf(place, light) * lights_[light].inverse_area;
 }
 
 }  // namespace chiaro

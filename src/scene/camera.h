@@ -7,8 +7,8 @@
 
 namespace chiaro {
 
-/// `eye`, `target` in world space; `up` need not be perpendicular. A picture's aspect comes from its
-/// size in pixels; pixels are square.
+/// `eye`, `target` in world space; `up` need not be perpendicular. A picture's aspect comes from
+/// its size in pixels; pixels are square.
 struct Camera {
     std::string name;
     Vec3 eye = Vec3(0, 0, 1);
@@ -26,8 +26,8 @@ public:
     int height() const { return height_; }
     Vec3 eye() const { return eye_; }
 
-    /// Ray through the picture point (x, y), in pixels from the top left corner: the centre of pixel
-    /// (i, j) is (i + 0.5, j + 0.5). The direction is of unit length.
+    /// Ray through the picture point (x, y), in pixels from the top left corner: the centre of
+    /// pixel (i, j) is (i + 0.5, j + 0.5). The direction is of unit length.
     Ray ray(float x, float y) const;
 
 private:

@@ -29,7 +29,8 @@ bool OpenSides::is_inside(ObjectId object, std::uint32_t primitive, bool front_h
     const std::uint8_t other = front_hit ? kBack : kFront;
     if ((marks.sides[primitive] & met) != 0) return false;
 
-    // Where the object's faces agree, one that disagrees was seen through a gap, and proves nothing.
+    // Where the object's faces agree, one that disagrees was seen through a gap, and proves
+    // nothing.
     const std::uint64_t marked = marks.counts[kFront] + marks.counts[kBack] + marks.counts[3];
     if (marked > 0 && std::uint64_t{10} * marks.counts[met] >= 9 * marked) return false;
     if (marked > 0 && std::uint64_t{10} * marks.counts[other] >= 9 * marked) return true;

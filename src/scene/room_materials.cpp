@@ -86,8 +86,8 @@ Palette make_palette(Scene& scene, float lamp_luminance) {
     add_furniture_materials(scene, palette);
     add_small_materials(scene, palette);
 
-    // A warm white of luminance 1. Linear Rec. 709 has 6500 K for white, and nothing adapts the eye to
-    // the lamp: a true 4000 K would look orange.
+    // A warm white of luminance 1. Linear Rec. 709 has 6500 K for white, and nothing adapts the eye
+    // to the lamp: a true 4000 K would look orange.
     constexpr Rgb kWarmWhite = {1.11f, 0.99f, 0.78f};
     palette.lamp = add_material(
         scene, {.name = "Lamp", .base_color = Rgb(0.8f), .emission = lamp_luminance * kWarmWhite});

@@ -65,13 +65,13 @@ Box bounds(const Scene& scene);
 /// True if anything emits: a punctual light, or a primitive of an emissive material.
 bool has_light(const Scene& scene);
 
-/// Makes primitives ready for use: quads first (stable within the kinds), `quad_count` set, degenerate
-/// primitives (no area, repeated corners) dropped; a quad with two corners in one place becomes a
-/// triangle. Returns how many were dropped.
+/// Makes primitives ready for use: quads first (stable within the kinds), `quad_count` set,
+/// degenerate primitives (no area, repeated corners) dropped; a quad with two corners in one place
+/// becomes a triangle. Returns how many were dropped.
 std::size_t order_primitives(Mesh& mesh);
 
-/// Ends the program if an index or size of the scene is wrong: importers and built-in scenes promise
-/// all that scene.h says.
+/// Ends the program if an index or size of the scene is wrong: importers and built-in scenes
+/// promise all that scene.h says.
 void check_scene(const Scene& scene);
 
 }  // namespace chiaro

@@ -11,8 +11,9 @@ struct AgingSettings {
 };
 
 /// Does nothing while the cache is within its budget. Above it, deletes all children of a patch if
-/// (a) none of them was seen in `unseen_cycles`, or (b) the patch covers less than one pixel, as 3.1
-/// says, and packs the rest. Returns whether ids changed: fragments must then be attached anew.
+/// (a) none of them was seen in `unseen_cycles`, or (b) the patch covers less than one pixel,
+/// as 3.1 says, and packs the rest. Returns whether ids changed: fragments must then be attached
+/// anew.
 bool age_out(ShadingCache& cache, const AgingSettings& settings, Cycle now);
 
 }  // namespace chiaro

@@ -32,7 +32,7 @@ public:
     }
 
     void clear() {
-        entries_.clear();
+        entries_ = {};
         count_ = 0;
     }
     std::size_t bytes() const { return entries_.capacity() * sizeof(VertexId); }

@@ -1,6 +1,7 @@
 // The records of the Shading Cache (3, 3.1): patches in trees, vertices in one graph.
 #pragma once
 
+#include "base/bfloat16.h"
 #include "base/color.h"
 #include "base/ids.h"
 #include "shading_cache/split.h"
@@ -27,12 +28,12 @@ inline PatchId offset_by(PatchId id, int n) {
 /// values at the children's new corners were asked for. Patches whose ancestors are all refined in
 /// a channel and that are not themselves form that channel's front, where its refinement goes on.
 struct Patch {
-    std::array<VertexId, 4> corners;  // counter-clockwise; corners[3] is none on a triangle
-    std::uint32_t parent;             // a PatchId; on a root, the index of its surface side
+    std::array<VertexId, 4> corners;      // counter-clockwise; corners[3] is none on a triangle
+    std::uint32_t parent;                 // a PatchId; on a root, the index of its surface side
     PatchId first_child = PatchId::none;  // the children are consecutive
     std::uint32_t first_fragment = 0;     // what of the view lies on it: IdMap::order
     std::uint32_t fragment_count = 0;
-    Cycle last_seen = 0;                  // last cycle in which it covered part of a pixel
+    Cycle last_seen = 0;  // last cycle in which it covered part of a pixel
     Split split = Split::none;
     std::uint8_t level = 0;             // 0 on a root
     std::uint8_t refined_channels = 0;  // bit c: channel c is refined here
@@ -55,23 +56,25 @@ struct CacheVertex {
     std::array<VertexId, 4> parents = {VertexId::none, VertexId::none, VertexId::none,
                                        VertexId::none};
     std::array<std::uint8_t, 4> weights = {0, 0, 0, 0};
-    std::uint32_t surface_side = 0;  // of the root on which it was made
-    Vec2 uv = Vec2(0);               // where it is sampled: pulled in from the patch's border by 0.2 %
-    bool exposed = false;  // it was seen not to be buried, whatever rays met
-    bool buried = false;  // most rays from it met the inside of a solid: its values are no light
-    bool hollow = false;  // it knows no light, nor does any parent: it leaves the interpolation
+    std::uint32_t surface_side : 29 = 0;  // of the root on which it was made
+    std::uint32_t exposed : 1 = 0;        // it was seen not to be buried, whatever rays met
+    std::uint32_t buried : 1 = 0;  // most rays from it met the inside of a solid: it knows no light
+    std::uint32_t hollow : 1 = 0;  // no parent does either: it leaves the interpolation
+    Vec2 uv = Vec2(0);  // where it is sampled: pulled in from the patch's border by 0.2 %
 };
 
-/// What is known of one channel at one vertex.
+/// What is known of one channel at one vertex; 20 bytes, as there are many.
 struct Estimate {
     static constexpr float kUnknown = -1;
+    static constexpr std::uint32_t kMostSamples = (1U << 18) - 1;
+    static constexpr Cycle kCycleMask = (1U << 14) - 1;
 
     Rgb mean = Rgb(0);      // irradiance [lux a colour channel]
-    float variance = 0;     // of the mean's luminance [lux^2]
-    float surplus = 0;      // luminance by which the first mean missed its prediction, less noise
+    Bfloat16 variance = 0;  // of the mean's luminance [lux^2]
+    Bfloat16 surplus = 0;   // luminance by which the first mean missed its prediction, less noise
                             // [lux]; kUnknown where there was none
-    std::uint32_t samples = 0;  // 0: not evaluated
-    Cycle shaded_at = 0;
+    std::uint32_t samples : 18 = 0;    // counted up to kMostSamples
+    std::uint32_t shaded_at : 14 = 0;  // cycle, of which the lower bits: ages go up to kCycleMask
 };
 
 }  // namespace chiaro

@@ -37,13 +37,15 @@ ShadingCache::ShadingCache(const Scene& scene, int channels, SplitRule rule)
         reflectances_.push_back(static_cast<std::uint8_t>(std::lround(255 * y)));
     }
     roots_.assign(2 * static_cast<std::size_t>(count), PatchId::none);
+    check(roots_.size() <= std::size_t{1} << 29, "ShadingCache: more primitives than ids");
     slots_.resize(channels);
     estimates_.resize(channels);
     shown_.resize(channels);
 }
 
 PatchId ShadingCache::root(ObjectId object, std::uint32_t primitive, bool front) {
-    const std::uint32_t side = 2 * (first_primitive_[index_of(object)] + primitive) + (front ? 0 : 1);
+    const std::uint32_t side =
+        2 * (first_primitive_[index_of(object)] + primitive) + (front ? 0 : 1);
     PatchId& id = roots_[side];
     if (id != PatchId::none) return id;
     id = static_cast<PatchId>(patches_.size());
@@ -92,7 +94,8 @@ PatchId ShadingCache::subdivide(PatchId leaf) {
 // Four children, or two where the patch is much longer than wide.
 Split ShadingCache::choose_split(PatchId leaf) const {
     const bool quad = patch(leaf).is_quad();
-    if (rule_ == SplitRule::always_four) return quad ? Split::quad_in_four : Split::triangle_in_four;
+    if (rule_ == SplitRule::always_four)
+        return quad ? Split::quad_in_four : Split::triangle_in_four;
 
     const int n = patch(leaf).corner_count();
     const std::uint32_t side = surface_side(leaf);
@@ -127,7 +130,8 @@ VertexId ShadingCache::node_vertex(PatchId id, Node node) {
 VertexId ShadingCache::edge_midpoint(PatchId id, Node node) {
     const Patch& p = patch(id);
     const int edge = node - kFirstMidpoint;
-    const std::array<VertexId, 2> ends = {p.corners[edge], p.corners[(edge + 1) % p.corner_count()]};
+    const std::array<VertexId, 2> ends = {p.corners[edge],
+                                          p.corners[(edge + 1) % p.corner_count()]};
     if (const auto known = midpoint(ends[0], ends[1])) return *known;
     const VertexId made = add_vertex(id, node_place(p.is_quad(), node), ends);
     edges_.insert(made, vertices_);
@@ -140,8 +144,8 @@ VertexId ShadingCache::add_vertex(PatchId id, Vec2 local, std::span<const Vertex
     const bool quad = patch(id).is_quad();
     const Vec2 centre = quad ? Vec2(0.5f) : Vec2(1.0f / 3);
     CacheVertex vertex;
-    vertex.hollow = parents.empty();
-    vertex.surface_side = surface_side(id);
+    vertex.hollow = parents.empty() ? 1 : 0;
+    vertex.surface_side = surface_side(id) & 0x1fff'ffffU;
     vertex.uv = surface_uv(id, glm::mix(local, centre, kPull));
     for (std::size_t i = 0; i < parents.size(); ++i) {
         vertex.parents[i] = parents[i];
@@ -219,8 +223,7 @@ Vec2 ShadingCache::surface_uv(PatchId id, Vec2 local) const {
 
 SurfacePoint ShadingCache::place(std::uint32_t surface_side, Vec2 uv) const {
     const std::uint32_t primitive = surface_side / 2;
-    const auto next =
-        std::upper_bound(first_primitive_.begin(), first_primitive_.end(), primitive);
+    const auto next = std::upper_bound(first_primitive_.begin(), first_primitive_.end(), primitive);
     const auto object = static_cast<std::uint32_t>(next - first_primitive_.begin() - 1);
     return {static_cast<ObjectId>(object), primitive - first_primitive_[object], uv.x, uv.y};
 }
@@ -239,7 +242,8 @@ std::size_t ShadingCache::bytes() const {
         return array.capacity() * sizeof(typename std::decay_t<decltype(array)>::value_type);
     };
     std::size_t total = held(roots_) + held(first_primitive_) + held(patches_) + held(vertices_) +
-                        edges_.bytes() + welded_.size() * (sizeof(std::uint64_t) + 4 + 2 * sizeof(void*));
+                        edges_.bytes() +
+                        welded_.size() * (sizeof(std::uint64_t) + 4 + 2 * sizeof(void*));
     for (int c = 0; c < channels(); ++c)
         total += held(slots_[c]) + held(estimates_[c]) + held(shown_[c]);
     return total;

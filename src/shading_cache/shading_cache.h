@@ -42,8 +42,8 @@ public:
     const Patch& patch(PatchId id) const { return patches_[index_of(id)]; }
     const CacheVertex& vertex(VertexId id) const { return vertices_[index_of(id)]; }
 
-    /// The root patch on one side of a primitive; made, unshaded, when first asked for (3: "evaluated
-    /// lazily").
+    /// The root patch on one side of a primitive; made, unshaded, when first asked for (3:
+    /// "evaluated lazily").
     PatchId root(ObjectId object, std::uint32_t primitive, bool front);
 
     /// Divides `leaf` and returns the first child. Midpoints that a neighbour has made already are
@@ -72,8 +72,8 @@ public:
     const Estimate* estimate(VertexId vertex, int channel) const;
     bool evaluated(VertexId vertex, int channel) const { return estimate(vertex, channel); }
 
-    /// By how much the estimate, which is the vertex's, missed its prediction (luminance, lux); where
-    /// there was none, a part of all light there.
+    /// By how much the estimate, which is the vertex's, missed its prediction (luminance, lux);
+    /// where there was none, a part of all light there.
     float surplus(VertexId vertex, const Estimate& estimate) const;
 
     /// Merges `samples` further samples with their `mean` and the luminance variance of that mean.
@@ -82,7 +82,7 @@ public:
                Cycle now);
     /// Most rays from the vertex met the inside of a solid (design: buried vertices).
     void mark_buried(VertexId vertex);
-    /// Every channel was evaluated and none found any light: the inside of a solid, most likely.
+    /// It was evaluated, and no channel has found any light.
     bool dark(VertexId vertex) const;
     /// A vertex that was taken for buried is in view: its estimates count after all, and for good.
     void expose(VertexId vertex);
@@ -98,9 +98,6 @@ public:
     /// Carries values from coarse to fine through the whole graph. store() resolves its own vertex;
     /// this brings what depends on it up to date.
     void resolve();
-
-    /// Shrinks what is shown toward the prediction by 1 - variance / surplus^2 where noise dominates.
-    void set_shrinkage(bool on) { shrinkage_ = on; }
 
     /// Bytes that the cache's arrays and tables hold, unused capacity included.
     std::size_t bytes() const;
@@ -121,7 +118,6 @@ private:
 
     const Scene* scene_;
     SplitRule rule_;
-    bool shrinkage_ = false;
     std::vector<std::uint32_t> first_primitive_;  // of each object, in one count over all
     std::vector<std::uint8_t> reflectances_;      // of each material, as Patch::reflectance
     std::vector<PatchId> roots_;                  // by surface side: 2 x primitive + (back ? 1 : 0)
@@ -131,15 +127,15 @@ private:
     std::unordered_multimap<std::uint64_t, VertexId> welded_;  // mesh corners by place
 
     static constexpr std::uint32_t kNoSlot = 0xffff'ffff;
-    std::vector<std::vector<std::uint32_t>> slots_;     // a channel: vertex to estimate, or kNoSlot
-    std::vector<std::vector<Estimate>> estimates_;      // a channel: only what was evaluated
-    std::vector<std::vector<std::uint32_t>> shown_;     // a channel: RGB9E5 by vertex
+    std::vector<std::vector<std::uint32_t>> slots_;  // a channel: vertex to estimate, or kNoSlot
+    std::vector<std::vector<Estimate>> estimates_;   // a channel: only what was evaluated
+    std::vector<std::vector<std::uint32_t>> shown_;  // a channel: RGB9E5 by vertex
 };
 
-/// Appends with capacity growing by an eighth: memory is part of what we promise.
+/// Appends with capacity growing by a 32nd: memory is part of what we promise.
 template <typename T>
 void append(std::vector<T>& array, const T& value) {
-    if (array.size() == array.capacity()) array.reserve(array.size() + array.size() / 8 + 64);
+    if (array.size() == array.capacity()) array.reserve(array.size() + array.size() / 32 + 64);
     array.push_back(value);
 }
 

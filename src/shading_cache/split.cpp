@@ -23,9 +23,13 @@ constexpr std::array<Family, 8> kFamilies = {{
     {2, {{{2, 6, 1, kNoNode}, {6, 0, 1, kNoNode}, kUnused, kUnused}}},
 }};
 
-const Family& family(Split split) { return kFamilies[static_cast<std::size_t>(split)]; }
+const Family& family(Split split) {
+    return kFamilies[static_cast<std::size_t>(split)];
+}
 
-bool divides_quad(Split split) { return split <= Split::quad_across_t; }
+bool divides_quad(Split split) {
+    return split <= Split::quad_across_t;
+}
 
 // A child's place in its parent, and the way back.
 struct Affine {
@@ -61,7 +65,9 @@ const Affine& affine(Split split, int child) {
 
 }  // namespace
 
-int child_count(Split split) { return family(split).count; }
+int child_count(Split split) {
+    return family(split).count;
+}
 
 std::span<const Node, 4> child_corners(Split split, int child) {
     return family(split).corners[child];
@@ -108,7 +114,7 @@ Vec2 node_place(bool quad, Node node) {
                                              Vec2(0, 1),    Vec2(0.5f, 0), Vec2(1, 0.5f),
                                              Vec2(0.5f, 1), Vec2(0, 0.5f), Vec2(0.5f, 0.5f)};
     constexpr std::array<Vec2, 7> on_triangle = {Vec2(0, 0),    Vec2(1, 0),       Vec2(0, 1),
-                                                 Vec2(0, 0),    // a triangle has no corner 3
+                                                 Vec2(0, 0),  // a triangle has no corner 3
                                                  Vec2(0.5f, 0), Vec2(0.5f, 0.5f), Vec2(0, 0.5f)};
     check(node < (quad ? on_quad.size() : on_triangle.size()), "node_place: no such node");
     return quad ? on_quad[node] : on_triangle[node];

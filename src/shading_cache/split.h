@@ -1,7 +1,7 @@
 // How a patch is divided (3.1): the children's places in their parent's local coordinates.
 //
-// Local coordinates run over one patch: on a quad (s, t) in [0, 1]^2 with corners 0 (0, 0), 1 (1, 0),
-// 2 (1, 1), 3 (0, 1); on a triangle s and t are the weights of corners 1 and 2.
+// Local coordinates run over one patch: on a quad (s, t) in [0, 1]^2 with corners 0 (0, 0), 1 (1,
+// 0), 2 (1, 1), 3 (0, 1); on a triangle s and t are the weights of corners 1 and 2.
 #pragma once
 
 #include "base/vec.h"
@@ -25,8 +25,8 @@ enum class Split : std::uint8_t {
     triangle_edge_20,
 };
 
-/// Where children have their corners: 0 to 3 the parent's corners, 4 + e the midpoint of the parent's
-/// edge from corner e to the next, 8 the centre of a quad.
+/// Where children have their corners: 0 to 3 the parent's corners, 4 + e the midpoint of the
+/// parent's edge from corner e to the next, 8 the centre of a quad.
 using Node = std::uint8_t;
 inline constexpr Node kFirstMidpoint = 4;
 inline constexpr Node kCentre = 8;
@@ -34,7 +34,8 @@ inline constexpr Node kNoNode = 255;
 
 int child_count(Split split);
 
-/// Nodes of a child's corners, counter-clockwise as its parent's; the fourth is kNoNode on a triangle.
+/// Nodes of a child's corners, counter-clockwise as its parent's; the fourth is kNoNode on a
+/// triangle.
 std::span<const Node, 4> child_corners(Split split, int child);
 
 /// The child that holds the parent's local point; on a border, one of those that share it.

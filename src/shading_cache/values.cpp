@@ -1,5 +1,5 @@
-// What vertices know and what they show: estimates merged as samples come, values carried from coarse
-// to fine through the graph.
+// What vertices know and what they show: estimates merged as samples come, values carried from
+// coarse to fine through the graph.
 
 #include "base/error.h"
 #include "base/rgb9e5.h"
@@ -17,25 +17,28 @@ void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std
     if (slot == kNoSlot) {
         slot = static_cast<std::uint32_t>(estimates_[channel].size());
         append(estimates_[channel],
-               Estimate{mean, variance, first_surplus(id, channel, mean, variance), samples, now});
+               Estimate{mean, variance, first_surplus(id, channel, mean, variance),
+                        std::min(samples, Estimate::kMostSamples) & Estimate::kMostSamples,
+                        now & Estimate::kCycleMask});
     } else {
-        // Batches are merged as if they were independent; parts of one Halton sequence do better than
-        // that, so that the variance is not understated.
+        // Batches are merged as if they were independent; parts of one Halton sequence do better
+        // than that, so that the variance is not understated.
         Estimate& e = estimates_[channel][slot];
-        const float old_part = static_cast<float>(e.samples) / static_cast<float>(e.samples + samples);
+        const float old_part =
+            static_cast<float>(e.samples) / static_cast<float>(e.samples + samples);
         const float new_part = 1 - old_part;
         e.mean = old_part * e.mean + new_part * mean;
         e.variance = old_part * old_part * e.variance + new_part * new_part * variance;
-        e.samples += samples;
-        e.shaded_at = now;
+        e.samples = std::min(e.samples + samples, Estimate::kMostSamples) & Estimate::kMostSamples;
+        e.shaded_at = now & Estimate::kCycleMask;
     }
     resolve_hollow(id);
     resolve_vertex(id, channel);
 }
 
-// By how much the prediction missed the first estimate, beyond what its noise explains. A vertex that
-// happens to agree does not speak for its whole neighbourhood: a part of its parents' surplus stays
-// suspected, less than the quarter that a smooth function would leave.
+// By how much the prediction missed the first estimate, beyond what its noise explains. A vertex
+// that happens to agree does not speak for its whole neighbourhood: a part of its parents' surplus
+// stays suspected, less than the quarter that a smooth function would leave.
 float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float variance) const {
     const std::optional<Rgb> prediction = predicted(vertex(id), channel);
     if (!prediction) return Estimate::kUnknown;
@@ -62,22 +65,24 @@ float ShadingCache::surplus(VertexId id, const Estimate& estimate) const {
 
 void ShadingCache::mark_buried(VertexId id) {
     if (vertex(id).exposed) return;
-    vertices_[index_of(id)].buried = true;
+    vertices_[index_of(id)].buried = 1;
     resolve_hollow(id);
     for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
 }
 
 bool ShadingCache::dark(VertexId id) const {
+    bool any_estimate = false;
     for (int c = 0; c < channels(); ++c) {
         const Estimate* e = estimate(id, c);
-        if (!e || max_component(e->mean) > 0) return false;
+        if (e && max_component(e->mean) > 0) return false;
+        any_estimate |= e != nullptr;
     }
-    return true;
+    return any_estimate;
 }
 
 void ShadingCache::expose(VertexId id) {
-    vertices_[index_of(id)].exposed = true;
-    vertices_[index_of(id)].buried = false;
+    vertices_[index_of(id)].exposed = 1;
+    vertices_[index_of(id)].buried = 0;
     resolve_hollow(id);
     for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
 }
@@ -104,7 +109,8 @@ std::optional<Rgb> ShadingCache::predicted(const CacheVertex& v, int channel) co
     int weight = 0;
     for (int i = 0; i < 4 && v.parents[i] != VertexId::none; ++i) {
         if (vertex(v.parents[i]).hollow) continue;
-        sum += static_cast<float>(v.weights[i]) * unpack_rgb9e5(shown_[channel][index_of(v.parents[i])]);
+        sum += static_cast<float>(v.weights[i]) *
+               unpack_rgb9e5(shown_[channel][index_of(v.parents[i])]);
         weight += v.weights[i];
     }
     if (weight == 0) return std::nullopt;
@@ -114,21 +120,7 @@ std::optional<Rgb> ShadingCache::predicted(const CacheVertex& v, int channel) co
 void ShadingCache::resolve_vertex(VertexId id, int channel) {
     const CacheVertex& v = vertex(id);
     const Estimate* e = v.buried ? nullptr : estimate(id, channel);
-    Rgb value(0);
-    if (e && !shrinkage_) {
-        value = e->mean;
-    } else {
-        const std::optional<Rgb> prediction = predicted(v, channel);
-        if (!e) {
-            value = prediction.value_or(Rgb(0));
-        } else if (!prediction) {
-            value = e->mean;
-        } else {
-            const float miss = luminance(e->mean) - luminance(*prediction);
-            const float keep = miss == 0 ? 1 : std::max(0.0f, 1 - e->variance / (miss * miss));
-            value = glm::mix(*prediction, e->mean, keep);
-        }
-    }
+    const Rgb value = e ? e->mean : predicted(v, channel).value_or(Rgb(0));
     shown_[channel][index_of(id)] = pack_rgb9e5(value);
 }
 
@@ -138,7 +130,7 @@ void ShadingCache::resolve_hollow(VertexId id) {
     for (int c = 0; c < channels() && !v.buried; ++c) knows |= evaluated(id, c);
     for (int i = 0; i < 4 && v.parents[i] != VertexId::none; ++i)
         knows |= !vertex(v.parents[i]).hollow;
-    v.hollow = !knows;
+    v.hollow = knows ? 0 : 1;
 }
 
 void ShadingCache::resolve() {

@@ -27,8 +27,8 @@ void UpdateCycle::refine() {
             front_[channel].set(index_of(patch), front_gain(patch, channel));
         }
     }
-    // Neighbours of what was shaded learn of it here. Waiting for a tenth of the vertices keeps this
-    // pass over everything a small part of the whole.
+    // Neighbours of what was shaded learn of it here. Waiting for a tenth of the vertices keeps
+    // this pass over everything a small part of the whole.
     if (points_since_refresh_ * 10 > cache_.vertices().size()) refresh();
 }
 
@@ -113,7 +113,8 @@ void UpdateCycle::divide(PatchId id, int channel, ShadeWork& work) {
         const PatchId child = offset_by(cache_.patch(id).first_child, c);
         const Patch& p = cache_.patch(child);
         if (p.fragment_count == 0) continue;
-        for (int i = 0; i < p.corner_count(); ++i) work.evaluate(cache_, p.corners[i], channel, samples);
+        for (int i = 0; i < p.corner_count(); ++i)
+            work.evaluate(cache_, p.corners[i], channel, samples);
         touched_.emplace_back(child, channel);
     }
 }
@@ -134,12 +135,13 @@ void UpdateCycle::refresh() {
     for (int c = 0; c < cache_.channels(); ++c) {
         std::vector<float> gains(cache_.patches().size(), 0.0f);
         constexpr std::size_t kBlock = 1024;
-        parallel_for(settings_.threads, (gains.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-            const std::size_t last = std::min(gains.size(), (block + 1) * kBlock);
-            for (std::size_t i = block * kBlock; i < last; ++i)
-                gains[i] = front_gain(static_cast<PatchId>(i), c);
-        });
-        front_[c].assign(std::move(gains));
+        parallel_for(settings_.threads, (gains.size() + kBlock - 1) / kBlock,
+                     [&](std::size_t block) {
+                         const std::size_t last = std::min(gains.size(), (block + 1) * kBlock);
+                         for (std::size_t i = block * kBlock; i < last; ++i)
+                             gains[i] = front_gain(static_cast<PatchId>(i), c);
+                     });
+        front_[c].assign(gains);
     }
 }
 

@@ -1,5 +1,5 @@
-// Refinement as the paper has it (3.1, 4): pixels selected by priority, the patches under them shaded
-// or divided into four, those with more samples first.
+// Refinement as the paper has it (3.1, 4): pixels selected by priority, the patches under them
+// shaded or divided into four, those with more samples first.
 
 #include "update/update_cycle.h"
 
@@ -22,9 +22,8 @@ std::vector<SelectedPatch> count_by_patch(const PriorityMap& map,
     for (const SelectedPixel& s : selection) ++counts[map.patches[s.pixel]];
     std::vector<SelectedPatch> patches;
     for (const auto& [patch, samples] : counts) patches.push_back({patch, samples});
-    std::stable_sort(patches.begin(), patches.end(), [](const auto& a, const auto& b) {
-        return a.samples > b.samples;
-    });
+    std::stable_sort(patches.begin(), patches.end(),
+                     [](const auto& a, const auto& b) { return a.samples > b.samples; });
     return patches;
 }
 

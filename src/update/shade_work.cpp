@@ -35,7 +35,8 @@ bool ShadeWork::evaluate(const ShadingCache& cache, VertexId vertex, int channel
 bool ShadeWork::resample(const ShadingCache& cache, VertexId vertex, int channel) {
     const Estimate* e = cache.estimate(vertex, channel);
     if (!e) return evaluate(cache, vertex, channel);
-    return add(cache, vertex, channel, e->samples, std::min(e->samples, kMostAtOnce));
+    return add(cache, vertex, channel, e->samples,
+               std::min<std::uint32_t>(e->samples, kMostAtOnce));
 }
 
 bool ShadeWork::add(const ShadingCache& cache, VertexId vertex, int channel, std::uint32_t first,
@@ -81,7 +82,8 @@ double ShadeWork::shade(ShadingCache& cache, SampleRenderer& renderer, int chann
         const ShadeResult& r = results[i];
         cache.store(c.vertices[i], channel, r.mean, luminance_variance(r.variance),
                     c.requests[i].samples, now);
-        if (r.buried || cache.dark(c.vertices[i])) cache.mark_buried(c.vertices[i]);
+        const bool none = c.plan.zero_is_buried && cache.dark(c.vertices[i]);
+        if (c.plan.finds_buried && (r.buried || none)) cache.mark_buried(c.vertices[i]);
     }
     return seconds;
 }

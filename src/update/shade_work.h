@@ -15,6 +15,8 @@ struct ChannelPlan {
     Light light = Light::direct;
     std::uint32_t first_samples = 32;
     std::uint32_t indirect_samples = 0;  // of Light::total
+    bool finds_buried = false;    // vertices that its results show to be in a solid are marked so
+    bool zero_is_buried = false;  // so are those that it finds no light at, if no channel has any
 };
 
 /// Requests of one cycle. Each (vertex, channel) is asked for at most once a cycle.
@@ -23,8 +25,8 @@ public:
     /// `seed` is the session's; a vertex's own follows from it, its place and its channel.
     ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed);
 
-    /// Asks for `samples` first samples of a vertex (0: as the plan says), unless it is evaluated or
-    /// asked for. Returns whether it was added.
+    /// Asks for `samples` first samples of a vertex (0: as the plan says), unless it is evaluated
+    /// or asked for. Returns whether it was added.
     bool evaluate(const ShadingCache& cache, VertexId vertex, int channel,
                   std::uint32_t samples = 0);
     /// Asks for as many samples again as an evaluated vertex has, at most kMostAtOnce.

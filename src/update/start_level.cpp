@@ -69,7 +69,8 @@ void evaluate_in_view(const ShadingCache& cache, std::span<const std::uint32_t> 
         if (p.fragment_count == 0) continue;
         for (int channel = 0; channel < cache.channels(); ++channel) {
             if (!on_front(cache, static_cast<PatchId>(i), channel)) continue;
-            for (int c = 0; c < p.corner_count(); ++c) work.evaluate(cache, p.corners[c], channel, samples[channel]);
+            for (int c = 0; c < p.corner_count(); ++c)
+                work.evaluate(cache, p.corners[c], channel, samples[channel]);
         }
     }
 }
@@ -78,8 +79,10 @@ std::vector<PatchId> dug_in(const ShadingCache& cache, int channel) {
     std::vector<PatchId> found;
     for (std::size_t i = 0; i < cache.patches().size(); ++i) {
         const Patch& p = cache.patches()[i];
-        if (p.fragment_count <= kSmallest || cache.buried_corners(p) + 1 < p.corner_count()) continue;
-        if (on_front(cache, static_cast<PatchId>(i), channel)) found.push_back(static_cast<PatchId>(i));
+        if (p.fragment_count <= kSmallest || cache.buried_corners(p) + 1 < p.corner_count())
+            continue;
+        if (on_front(cache, static_cast<PatchId>(i), channel))
+            found.push_back(static_cast<PatchId>(i));
     }
     return found;
 }

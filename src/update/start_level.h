@@ -21,8 +21,8 @@ std::size_t missing_in_view(const ShadingCache& cache, int channel);
 void evaluate_in_view(const ShadingCache& cache, std::span<const std::uint32_t> samples,
                       ShadeWork& work);
 
-/// Patches in view all or all but one of whose corners are buried, although something of them is seen:
-/// those of a channel's front that can be divided further.
+/// Patches in view all or all but one of whose corners are buried, although something of them is
+/// seen: those of a channel's front that can be divided further.
 std::vector<PatchId> dug_in(const ShadingCache& cache, int channel);
 
 /// Corners of a patch in view that is small and buried all over cannot be buried: exposes them.

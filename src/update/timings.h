@@ -8,9 +8,9 @@
 namespace chiaro {
 
 enum class Step {
-    sample_selection,       // ID map, priorities, selection
-    patch_subdivision,      // dividing patches, handing fragments down
-    tessellation,           // of curved surfaces
+    sample_selection,   // ID map, priorities, selection
+    patch_subdivision,  // dividing patches, handing fragments down
+    tessellation,       // of curved surfaces
     aging,
     update_display_meshes,  // values carried from coarse to fine for display
     rendering,              // the sample renderer

@@ -12,10 +12,17 @@ namespace chiaro {
 namespace {
 
 // The best scheme's channels and what their vertices start with.
-std::vector<ChannelPlan> plan_channels(const UpdateSettings& settings) {
+std::vector<ChannelPlan> plan_channels(const UpdateSettings& settings, const Scene& scene) {
     if (settings.scheme == Scheme::paper)
         return {{Light::total, settings.direct_samples, settings.indirect_samples}};
-    return {{Light::direct, 32, 0}, {Light::indirect, 64, 0}};
+    // Where surfaces reflect at all, indirect light is everywhere but inside of solids.
+    bool reflects = false;
+    for (const Material& m : scene.materials) reflects |= max_component(m.base_color) > 0;
+    return {{.light = Light::direct, .first_samples = 32, .finds_buried = true},
+            {.light = Light::indirect,
+             .first_samples = 64,
+             .finds_buried = true,
+             .zero_is_buried = reflects}};
 }
 
 // Costs before any were measured, and for good in cycles of fixed size [seconds a sample].
@@ -25,8 +32,8 @@ constexpr double kIndirectCost = 0.9e-6;
 // A cycle of fixed size asks for about as much as this.
 constexpr double kFixedFirstPictureSeconds = 0.15;
 
-// Direct light's part of the first picture's time, and how many times the planned samples a vertex of
-// the first picture may have.
+// Direct light's part of the first picture's time, and how many times the planned samples a vertex
+// of the first picture may have.
 constexpr double kDirectShare = 0.15;
 constexpr std::uint32_t kMostFirstSamples = 4;
 
@@ -42,11 +49,10 @@ UpdateCycle::UpdateCycle(const RayCaster& rays, SampleRenderer& renderer, OpenSi
       renderer_(&renderer),
       open_sides_(&open_sides),
       settings_(settings),
-      plans_(plan_channels(settings)),
+      plans_(plan_channels(settings, rays.scene())),
       cache_(rays.scene(), static_cast<int>(plans_.size()), split_rule(settings.scheme)),
       rng_(settings.seed),
       front_(plans_.size()) {
-    cache_.set_shrinkage(settings.shrinkage);
     for (std::size_t c = 0; c < plans_.size(); ++c) {
         gains_.first_samples[c] = plans_[c].first_samples;
         gains_.seconds_a_sample[c] =
@@ -87,8 +93,8 @@ void UpdateCycle::make_map(ViewQuality quality) {
     attach(cache_, map_, static_cast<Cycle>(statistics_.cycles));
 }
 
-// Everything in view, at an even density that the first picture's budget can pay. The paper's scheme
-// evaluates the roots as they are.
+// Everything in view, at an even density that the first picture's budget can pay. The paper's
+// scheme evaluates the roots as they are.
 void UpdateCycle::start() {
     ShadeWork work(plans_, settings_.seed);
     std::vector<std::uint32_t> samples(plans_.size(), 0);
@@ -106,8 +112,8 @@ void UpdateCycle::start() {
     refresh();
 }
 
-// A face whose corners all lie in its neighbours would be black: divides such patches at once, until
-// something of them is known.
+// A face whose corners all lie in its neighbours would be black: divides such patches at once,
+// until something of them is known.
 void UpdateCycle::dig_out() {
     constexpr int kMostRounds = 8;
     for (int round = 0; round < kMostRounds; ++round) {
@@ -122,11 +128,12 @@ void UpdateCycle::dig_out() {
         expose_if_seen(cache_, static_cast<PatchId>(i));
 }
 
-// Divides patches until a channel's share of the first picture's seconds is used, and returns with how
-// many samples its vertices start: more than the plan says where few vertices are needed, since
+// Divides patches until a channel's share of the first picture's seconds is used, and returns with
+// how many samples its vertices start: more than the plan says where few vertices are needed, since
 // noise is seen before interpolation is.
 std::uint32_t UpdateCycle::even_out_channel(int channel, double seconds) {
-    const double share = seconds * (plans_[channel].light == Light::direct ? kDirectShare : 1 - kDirectShare);
+    const double share =
+        seconds * (plans_[channel].light == Light::direct ? kDirectShare : 1 - kDirectShare);
     const auto affordable = [&](std::uint32_t samples) {
         return share / (samples * static_cast<double>(gains_.seconds_a_sample[channel]));
     };
@@ -146,7 +153,8 @@ void UpdateCycle::shade(ShadeWork& work) {
         statistics_.samples[c] += work.samples(c);
         if (settings_.fixed_size || work.samples(c) < 2000) continue;
         const double measured = seconds * settings_.threads / static_cast<double>(work.samples(c));
-        gains_.seconds_a_sample[c] += 0.2f * (static_cast<float>(measured) - gains_.seconds_a_sample[c]);
+        gains_.seconds_a_sample[c] +=
+            0.2f * (static_cast<float>(measured) - gains_.seconds_a_sample[c]);
     }
     statistics_.points_shaded += work.points();
     points_since_refresh_ += work.points();

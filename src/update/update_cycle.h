@@ -13,8 +13,8 @@
 
 namespace chiaro {
 
-/// `paper` is sections 3 and 4 as they stand: one joint channel, fixed samples, the difference of the
-/// corners. `best` is what measured better (docs/overview.md).
+/// `paper` is sections 3 and 4 as they stand: one joint channel, fixed samples, the difference of
+/// the corners. `best` is what measured better (docs/overview.md).
 enum class Scheme { best, paper };
 
 struct UpdateSettings {
@@ -22,18 +22,17 @@ struct UpdateSettings {
     int threads = 1;
     std::uint64_t seed = 1;
     Aov aov = Aov::radiance;
-    std::uint32_t direct_samples = 100;    // paper: of the joint channel, fixed
+    std::uint32_t direct_samples = 100;  // paper: of the joint channel, fixed
     std::uint32_t indirect_samples = 400;
-    double cycle_seconds = 0.05;           // the length that a cycle adjusts itself to
-    double first_picture_seconds = 0.15;   // what the first cycle may spend on shading
+    double cycle_seconds = 0.05;          // the length that a cycle adjusts itself to
+    double first_picture_seconds = 0.15;  // what the first cycle may spend on shading
     bool fixed_size = false;  // cycles of a fixed number of points: the same bits on any machine
-    bool shrinkage = false;
     AgingSettings aging;
 };
 
 struct Statistics {
     std::size_t cycles = 0;
-    std::size_t points_shaded = 0;  // evaluations of one channel at one vertex
+    std::size_t points_shaded = 0;         // evaluations of one channel at one vertex
     std::array<std::size_t, 8> samples{};  // a channel
     Timings timings;
 };
@@ -46,7 +45,8 @@ public:
     UpdateCycle(const RayCaster& rays, SampleRenderer& renderer, OpenSides& open_sides,
                 const UpdateSettings& settings);
 
-    /// Looks from elsewhere, from the next cycle on. Diffuse shading stays: it does not depend on the eye.
+    /// Looks from elsewhere, from the next cycle on. Diffuse shading stays: it does not depend on
+    /// the eye.
     void look_from(const View& view);
 
     /// One cycle. The first after look_from() ends with a picture that covers the whole view.
@@ -96,7 +96,7 @@ private:
 
     Rng rng_;
     GainSettings gains_;
-    std::vector<SumTree> front_;       // a channel: gain by patch
+    std::vector<SumTree> front_;                    // a channel: gain by patch
     std::vector<std::pair<PatchId, int>> touched_;  // gains to reckon anew once shaded
     std::size_t points_since_refresh_ = 0;
     double paper_sample_count_ = 70;

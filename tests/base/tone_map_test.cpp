@@ -60,10 +60,17 @@ TEST(ToneMap, PicturesForTheScreenAreWithinZeroAndOne) {
     EXPECT_GT(shown.at(1, 0).r, 0.1f);
 }
 
-TEST(ToneMap, OneStopDoubles) {
-    EXPECT_FLOAT_EQ(exposure_from_ev(0), 1);
-    EXPECT_FLOAT_EQ(exposure_from_ev(1), 2);
-    EXPECT_FLOAT_EQ(exposure_from_ev(-2), 0.25f);
+// An even picture has its median at two fifths. Where a fifth of the picture is a thousand times as
+// bright, its ninth tenth goes no further than 6 over white; black stays as it is.
+TEST(ToneMap, AutomaticExposureSparesTheBrightTenth) {
+    Image image(100, 1);
+    for (Rgb& pixel : image.pixels) pixel = Rgb(2);
+    EXPECT_FLOAT_EQ(automatic_exposure(image), 0.2f);
+    for (int x = 0; x < 20; ++x) image.at(x, 0) = Rgb(2000);
+    EXPECT_FLOAT_EQ(automatic_exposure(image), 6 / 2000.f);
+    for (int x = 5; x < 20; ++x) image.at(x, 0) = Rgb(2);  // less than a tenth may go over
+    EXPECT_FLOAT_EQ(automatic_exposure(image), 0.2f);
+    EXPECT_EQ(automatic_exposure(Image(3, 3)), 1);
 }
 
 }  // namespace

@@ -111,7 +111,8 @@ TEST(Sampling, BothTechniquesStateTheSameDensity) {
         const Vec3 d = glm::normalize(c->shadow_ray.direction);
         const Hit hit = meter.look(receiver.origin, d);
         if (!hit || hit.point.object != ObjectId(0)) continue;
-        EXPECT_NEAR(pdf_area_light(meter.lit, hit, d) / c->pdf_solid_angle, 1, 2e-3);
+        EXPECT_NEAR(pdf_area_light(meter.lit, lit_place(receiver), d, hit) / c->pdf_solid_angle, 1,
+                    2e-3);
         EXPECT_NEAR(pdf_cosine_hemisphere(d.z) / c->pdf_cosine, 1, 2e-3);
         ++compared;
     }

@@ -26,6 +26,9 @@ Scene lamps() {
     return scene;
 }
 
+// Above all lamps, where each shines.
+const LitPlace kAbove = {{2, 1, 6}, {0, 0, -1}};
+
 TEST(AreaLights, PowerIsExitanceTimesArea) {
     Scene scene = lamps();
     double expected = 0;
@@ -42,8 +45,8 @@ TEST(AreaLights, DarkPrimitivesHaveNoDensity) {
     const Scene scene = lamps();
     const AreaLights lights(scene);
     EXPECT_EQ(lights.size(), 3u);
-    EXPECT_EQ(lights.pdf(ObjectId(1), 0), 0);
-    EXPECT_GT(lights.pdf(ObjectId(2), 0), 0);
+    EXPECT_EQ(lights.pdf(kAbove, ObjectId(1), 0), 0);
+    EXPECT_GT(lights.pdf(kAbove, ObjectId(2), 0), 0);
 }
 
 TEST(AreaLights, NoEmittersIsEmpty) {
@@ -60,7 +63,7 @@ TEST(AreaLights, DensitiesSumToOne) {
     double sum = 0;
     for (std::uint32_t o = 0; o < 3; ++o)
         for (std::uint32_t p = 0; p < scene.mesh_of(scene.objects[o]).primitives.size(); ++p)
-            sum += lights.pdf(ObjectId(o), p) * primitive_area(scene, ObjectId(o), p);
+            sum += lights.pdf(kAbove, ObjectId(o), p) * primitive_area(scene, ObjectId(o), p);
     EXPECT_NEAR(sum, 1, 1e-5);
 }
 
@@ -70,11 +73,13 @@ TEST(AreaLights, SamplesLieOnTheirPrimitives) {
     const AreaLights lights(scene);
     Rng rng(7);
     for (int i = 0; i < 10'000; ++i) {
-        const AreaLightSample s = lights.sample(rng.uniform(), {rng.uniform(), rng.uniform()});
+        const auto found = lights.sample(kAbove, rng.uniform(), {rng.uniform(), rng.uniform()});
+        ASSERT_TRUE(found);
+        const AreaLightSample& s = *found;
         const SurfaceGeometry g = surface_geometry(scene, s.point);
         EXPECT_LT(glm::length(g.position - s.position), 1e-5f);
         EXPECT_GT(glm::dot(g.geometric_normal, s.normal), 0.99999f);
-        EXPECT_EQ(s.pdf_area, lights.pdf(s.point.object, s.point.primitive));
+        EXPECT_FLOAT_EQ(s.pdf_area, lights.pdf(kAbove, s.point.object, s.point.primitive));
     }
 }
 
@@ -100,8 +105,9 @@ TEST(AreaLights, ChiSquaredOfSamples) {
 
     Rng rng(11);
     for (int i = 0; i < kSamples; ++i) {
-        const auto s = lights.sample(rng.uniform(), {rng.uniform(), rng.uniform()});
-        counts[key(s.point, s.point.u, s.point.v)] += 1;
+        const auto s = lights.sample(kAbove, rng.uniform(), {rng.uniform(), rng.uniform()});
+        ASSERT_TRUE(s);
+        counts[key(s->point, s->point.u, s->point.v)] += 1;
     }
 
     // Expected: midpoints of a fine grid of (u, v), each with the area of its half.
@@ -123,7 +129,7 @@ TEST(AreaLights, ChiSquaredOfSamples) {
                 const Vec3 c = geometry(second ? 1.0f : 0.0f, second ? 0.001f : 0.999f);
                 const double jacobian = glm::length(glm::cross(b - a, c - a)) / (0.999 * 0.999);
                 expected[key({ObjectId(o), p}, u, v)] +=
-                    kSamples * jacobian * lights.pdf(ObjectId(o), p) / (kFine * kFine);
+                    kSamples * jacobian * lights.pdf(kAbove, ObjectId(o), p) / (kFine * kFine);
             }
         }
     }
@@ -145,7 +151,7 @@ TEST(AreaLights, AlphaOfEmitters) {
     const auto radiance = [&](AlphaMode mode) {
         scene.materials[0].alpha_mode = mode;
         const AreaLights lights(scene);
-        return lights.eval(lights.sample(0.5f, {0.5f, 0.5f}), {0, 0, 1}).r;
+        return lights.eval(*lights.sample(kAbove, 0.5f, {0.5f, 0.5f}), {0, 0, 1}).r;
     };
     EXPECT_EQ(radiance(AlphaMode::opaque), 2);
     EXPECT_EQ(radiance(AlphaMode::mask), 0);

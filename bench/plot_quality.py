@@ -1,0 +1,100 @@
+"""Draws error over time from the JSON of quality_over_time, and writes the table of docs/results.md.
+
+Usage: plot_quality.py FOLDER_OF_JSON DOCS_FOLDER
+"""
+import json
+import math
+import pathlib
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+ORDER = ["cornell", "room", "kitchen", "classroom"]
+NAMES = {"best": "Shading Cache, best scheme", "paper": "Shading Cache, paper's scheme",
+         "path": "path tracing a pixel"}
+COLORS = {"best": "tab:blue", "paper": "tab:orange", "path": "tab:gray"}
+BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
+
+
+def seconds_to(rows, psnr):
+    """Seconds after which `psnr` is reached for good, between measurements by logarithm."""
+    last_below = max((i for i, r in enumerate(rows) if r["psnr"] < psnr), default=-1)
+    if last_below + 1 >= len(rows):
+        return None
+    if last_below < 0:
+        return rows[0]["seconds"]
+    a, b = rows[last_below], rows[last_below + 1]
+    part = (psnr - a["psnr"]) / (b["psnr"] - a["psnr"])
+    return math.exp(math.log(a["seconds"]) + part * math.log(b["seconds"] / a["seconds"]))
+
+
+def extrapolated(rows, psnr):
+    """Path tracing's error falls as 1 / time: the fit through its last half tells when it gets there."""
+    tail = rows[len(rows) // 2:]
+    offset = sum(r["psnr"] - 10 * math.log10(r["seconds"]) for r in tail) / len(tail)
+    return 10 ** ((psnr - offset) / 10)
+
+
+def say(seconds, measured=True):
+    if seconds is None:
+        return "not reached"
+    return f"{seconds:.3g} s" if measured else f"({seconds:.3g} s)"
+
+
+def path_seconds(rows, psnr):
+    reached = seconds_to(rows, psnr)
+    return (reached, True) if reached is not None else (extrapolated(rows, psnr), False)
+
+
+def table(runs):
+    lines = ["| scene | first picture | 3 paths a pixel | 40 dB: best | paper's | path tracing | path tracing / best |"
+             " common PSNR of both schemes | best | paper's | paper's / best |", "|---|" + "---|" * 10]
+    for run in runs:
+        best, paper, path = (run["methods"][m] for m in ("best", "paper", "path"))
+        three = next((r["seconds"] for r in path if r.get("spp") == 3), None)
+        b40, p40 = seconds_to(best, 40), seconds_to(paper, 40)
+        t40, measured = path_seconds(path, 40)
+        ratio = f"{t40 / b40:.0f}" if b40 else "-"
+        common = min(max(r["psnr"] for r in best), max(r["psnr"] for r in paper)) - 0.1
+        bc, pc = seconds_to(best, common), seconds_to(paper, common)
+        both = f"{pc / bc:.1f}" if bc and pc else "-"
+        lines.append(
+            f"| {run['scene']} | {best[0]['seconds']:.2f} s, {best[0]['psnr']:.1f} dB | {say(three)} | {say(b40)} | {say(p40)} |"
+            f" {say(t40, measured)} | {ratio} | {common:.1f} dB | {say(bc)} | {say(pc)} | {both} |")
+    return "\n".join(lines)
+
+
+def draw(runs, file):
+    figure, axes = plt.subplots(1, len(runs), figsize=(5 * len(runs), 4), squeeze=False)
+    for run, axis in zip(runs, axes[0]):
+        for method, rows in run["methods"].items():
+            axis.plot([r["seconds"] for r in rows], [r["psnr"] for r in rows], label=NAMES[method],
+                      color=COLORS[method], linewidth=2)
+        axis.set_xscale("log")
+        axis.set_title(f"{run['scene']}, {run['size']}, {run['threads']} threads")
+        axis.set_xlabel("seconds after loading")
+        axis.set_ylabel("PSNR against the reference [dB]")
+        axis.grid(True, which="both", alpha=0.3)
+        axis.legend(loc="lower right", fontsize=8)
+    figure.tight_layout()
+    figure.savefig(file, dpi=80)
+
+
+def main():
+    folder, docs = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    runs = [json.loads((folder / f"{n}.json").read_text()) for n in ORDER if (folder / f"{n}.json").exists()]
+    (docs / "pictures").mkdir(exist_ok=True)
+    draw(runs, docs / "pictures" / "quality.png")
+    results = docs / "results.md"
+    text = results.read_text()
+    before, rest = text.split(BEGIN)
+    after = rest.split(END)[1]
+    results.write_text(f"{before}{BEGIN}\n{table(runs)}\n{END}{after}")
+    print(table(runs))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,98 @@
+// Priorities of patches and how they are brought to [0, 1].
+#include "sample_selector/priority_map.h"
+
+#include "base/tone_map.h"
+#include "shading_cache/cache_testing.h"
+
+#include <gtest/gtest.h>
+
+namespace chiaro {
+namespace {
+
+using namespace tiny;
+
+// 4.2: four standard deviations below and above the average become 0 and 1. Of 0, 0.5 and 1 the
+// average is 1/2 and the variance 1/6.
+TEST(PriorityRange, IsFourStandardDeviationsEitherWay) {
+    const std::vector<float> priorities = {0, 0.5f, 1};
+    const PriorityRange range = four_sigma_range(priorities);
+    EXPECT_NEAR(range.low, 0.5 - 4 * std::sqrt(1.0 / 6), 1e-6);
+    EXPECT_NEAR(range.high, 0.5 + 4 * std::sqrt(1.0 / 6), 1e-6);
+    EXPECT_NEAR(range.normalize(0.5f), 0.5f, 1e-6f);
+    EXPECT_NEAR(range.normalize(range.low), 0, 1e-6f);
+    EXPECT_NEAR(range.normalize(range.high), 1, 1e-6f);
+    EXPECT_NEAR(range.normalize(1) - range.normalize(0), 1 / (8 * std::sqrt(1.0 / 6)), 1e-5);
+}
+
+// Outliers are clamped; 1 among 999 zeros is far beyond four deviations.
+TEST(PriorityRange, ClampsOutliers) {
+    std::vector<float> priorities(1000, 0.0f);
+    priorities[0] = 1;
+    const PriorityRange range = four_sigma_range(priorities);
+    EXPECT_EQ(range.normalize(1), 1);
+    EXPECT_EQ(range.normalize(-100), 0);
+}
+
+// Without any spread the average still maps to 1/2, whatever it is and however many there are.
+TEST(PriorityRange, NoSpreadIsOneHalf) {
+    for (const float p : {0.0f, 0.1f, 0.3f, 1.0f})
+        for (const std::size_t count : {1u, 3u, 7u, 1000u})
+            EXPECT_EQ(four_sigma_range(std::vector<float>(count, p)).normalize(p), 0.5f);
+}
+
+// 4.1: largest minus smallest of the corners' tone-mapped colours, at the patch's reflectance.
+TEST(InterpolationError, IsTheRangeOfTheTonesOfTheCorners) {
+    const Scene scene = grid(1, 1);  // reflectance 0.5
+    ShadingCache cache(scene, 1, SplitRule::always_four);
+    const PatchId root = front_roots(cache)[0];
+    const std::array<Rgb, 4> light = {Rgb(4, 0, 0), Rgb(1), Rgb(0, 8, 0), Rgb(2, 2, 2)};
+    EXPECT_EQ(interpolation_error(cache, cache.patch(root), 1), 1);  // nothing is known
+    for (int c = 0; c < 3; ++c) cache.store(cache.patch(root).corners[c], 0, light[c], 0, 1, 1);
+    EXPECT_EQ(interpolation_error(cache, cache.patch(root), 1), 1);  // not of all corners
+    cache.store(cache.patch(root).corners[3], 0, light[3], 0, 1, 1);
+
+    for (const float exposure : {0.1f, 1.0f, 20.0f}) {
+        float low = 1, high = 0;
+        for (const Rgb& e : light) {
+            const float tone = paper_tone_value(e, exposure * 128 / 255 / kPi);
+            low = std::min(low, tone);
+            high = std::max(high, tone);
+        }
+        EXPECT_NEAR(interpolation_error(cache, cache.patch(root), exposure), high - low, 1e-5f);
+    }
+}
+
+TEST(InterpolationError, IsZeroWhereTheCornersAgree) {
+    const Scene scene = grid(1, 1);
+    ShadingCache cache(scene, 1, SplitRule::always_four);
+    const PatchId root = front_roots(cache)[0];
+    store_constant(cache, Rgb(4, 2, 1));
+    EXPECT_EQ(interpolation_error(cache, cache.patch(root), 1), 0);
+}
+
+// Each visible leaf counts once, whatever it covers; pixels without a patch have no priority.
+TEST(PriorityMap, CountsVisibleLeavesOnce) {
+    Rng rng(1);
+    const Scene scene = grid(3, 1);
+    ShadingCache cache(scene, 1, SplitRule::always_four);
+    const auto roots = front_roots(cache);
+    cache.subdivide(roots[0]);
+    store_random(cache, rng);
+    IdMap map = random_map(cache, {roots[0], roots[1]}, 400, rng);
+    map.width = 401;  // and a pixel of background
+    map.first_of_pixel.push_back(map.first_of_pixel.back());
+    attach(cache, map, 1);
+
+    const PriorityMap priorities = make_priority_map(cache, map, 1);
+    EXPECT_EQ(priorities.patch_priorities.size(),
+              5u);  // four children and a root; one is not in view
+    for (std::uint32_t p = 0; p < 400; ++p) {
+        const PatchId leaf = map.at_pixel(p)[0].patch;
+        EXPECT_EQ(priorities.patches[p], leaf);
+        EXPECT_EQ(priorities.at(p), interpolation_error(cache, cache.patch(leaf), 1));
+    }
+    EXPECT_FALSE(priorities.at(400).has_value());
+}
+
+}  // namespace
+}  // namespace chiaro

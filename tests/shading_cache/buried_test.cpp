@@ -1,0 +1,116 @@
+// Vertices inside solids know no light and must not darken what is around them.
+#include "shading_cache/cache_testing.h"
+#include "shading_cache/interpolate.h"
+
+namespace chiaro {
+namespace {
+
+using namespace tiny;
+
+struct Square {
+    Scene scene = grid(1, 1);
+    ShadingCache cache;
+    PatchId root;
+    std::array<VertexId, 4> corners;
+
+    explicit Square(int channels = 1) : cache(scene, channels, SplitRule::always_four) {
+        root = cache.root(ObjectId{0}, 0, true);
+        corners = cache.patch(root).corners;
+    }
+    Square(const Square&) = delete;
+    Square& operator=(const Square&) = delete;
+
+    void store_corners(float grey) {
+        for (const VertexId v : corners) cache.store(v, 0, Rgb(grey), 0, 1, 1);
+    }
+};
+
+// A buried midpoint shows what its parents predict, its own darkness never.
+TEST(Buried, TakesTheParentsPrediction) {
+    Square s;
+    s.store_corners(8);
+    const VertexId midpoint = s.cache.patch(s.cache.subdivide(s.root)).corners[1];
+    s.cache.store(midpoint, 0, Rgb(0), 0, 16, 1);
+    EXPECT_EQ(s.cache.shown(midpoint, 0).irradiance, Rgb(0));
+    s.cache.mark_buried(midpoint);
+    EXPECT_EQ(s.cache.shown(midpoint, 0).irradiance, Rgb(8));
+    EXPECT_EQ(s.cache.shown(midpoint, 0).weight, 1);
+    s.cache.resolve();
+    EXPECT_EQ(s.cache.shown(midpoint, 0).irradiance, Rgb(8));
+}
+
+// A buried corner of the mesh has no parents: it is hollow and leaves the interpolation, whose
+// other weights are scaled up. Equal light at the other corners is then equal light everywhere.
+TEST(Buried, HollowCornersLeaveTheInterpolation) {
+    for (int buried = 1; buried <= 3; ++buried) {
+        Square s;
+        s.store_corners(8);
+        for (int c = 0; c < buried; ++c) {
+            s.cache.store(s.corners[c], 0, Rgb(0), 0, 1000, 1);
+            s.cache.mark_buried(s.corners[c]);
+            EXPECT_EQ(s.cache.shown(s.corners[c], 0).weight, 0);
+        }
+        EXPECT_EQ(s.cache.buried_corners(s.cache.patch(s.root)), buried);
+        Rng rng(1);
+        for (int i = 0; i < 1000; ++i) {
+            const Vec2 p(0.001f + 0.998f * rng.uniform(), 0.001f + 0.998f * rng.uniform());
+            EXPECT_NEAR(irradiance_at(s.cache, s.root, p).g, 8, 1e-4f);
+        }
+        // Nor do they enter predictions.
+        const VertexId centre = s.cache.patch(s.cache.subdivide(s.root)).corners[2];
+        EXPECT_EQ(s.cache.shown(centre, 0).irradiance, Rgb(8));
+    }
+}
+
+// Between hollow parents a vertex is hollow until it is evaluated itself.
+TEST(Buried, HollownessIsInheritedUntilLightIsFound) {
+    Square s;
+    s.store_corners(8);
+    s.cache.mark_buried(s.corners[0]);
+    s.cache.mark_buried(s.corners[1]);
+    const VertexId midpoint = s.cache.patch(s.cache.subdivide(s.root)).corners[1];
+    s.cache.resolve();
+    EXPECT_EQ(s.cache.shown(midpoint, 0).weight, 0);
+    s.cache.store(midpoint, 0, Rgb(4), 0, 1, 1);
+    EXPECT_EQ(s.cache.shown(midpoint, 0).weight, 1);
+    EXPECT_EQ(s.cache.shown(midpoint, 0).irradiance, Rgb(4));
+}
+
+// If nothing is known the picture is black, not undefined.
+TEST(Buried, AllHollowIsBlack) {
+    Square s;
+    EXPECT_EQ(irradiance_at(s.cache, s.root, {0.3f, 0.4f}), Rgb(0));
+    s.store_corners(8);
+    for (const VertexId v : s.corners) s.cache.mark_buried(v);
+    EXPECT_EQ(irradiance_at(s.cache, s.root, {0.3f, 0.4f}), Rgb(0));
+}
+
+// A vertex that is in view after all gets its estimate back, and is not buried again.
+TEST(Buried, ExposeBringsBackForGood) {
+    Square s(2);
+    s.store_corners(8);
+    s.cache.store(s.corners[0], 1, Rgb(2), 0, 1, 1);
+    s.cache.mark_buried(s.corners[0]);
+    EXPECT_EQ(s.cache.shown_total(s.corners[0]).weight, 0);
+    s.cache.expose(s.corners[0]);
+    EXPECT_EQ(s.cache.shown_total(s.corners[0]).irradiance, Rgb(8 + 2));
+    EXPECT_EQ(s.cache.shown_total(s.corners[0]).weight, 1);
+    s.cache.mark_buried(s.corners[0]);
+    EXPECT_FALSE(s.cache.vertex(s.corners[0]).buried);
+    EXPECT_EQ(s.cache.shown_total(s.corners[0]).irradiance, Rgb(8 + 2));
+}
+
+// Dark is known to be dark in every channel; what was not evaluated may be bright.
+TEST(Buried, DarkNeedsAllChannels) {
+    Square s(2);
+    EXPECT_FALSE(s.cache.dark(s.corners[0]));
+    s.cache.store(s.corners[0], 0, Rgb(0), 0, 1, 1);
+    EXPECT_FALSE(s.cache.dark(s.corners[0]));
+    s.cache.store(s.corners[0], 1, Rgb(0), 0, 1, 1);
+    EXPECT_TRUE(s.cache.dark(s.corners[0]));
+    s.cache.store(s.corners[0], 1, Rgb(1, 0, 0), 0, 1, 1);
+    EXPECT_FALSE(s.cache.dark(s.corners[0]));
+}
+
+}  // namespace
+}  // namespace chiaro

@@ -1,0 +1,53 @@
+// The first picture decides whether people stay: after one cycle it covers the whole view.
+#include "scene/built_in.h"
+#include "update/studio.h"
+
+namespace chiaro {
+namespace {
+
+using tiny::fixed_size;
+using tiny::Studio;
+
+class FirstPicture : public testing::TestWithParam<const char*> {};
+
+// Everything in these rooms gets light, so whatever is no background shows some. (The paper's
+// scheme begins with the corners of the roots: a face whose corners are all covered is black until
+// divided.)
+TEST_P(FirstPicture, CoversTheView) {
+    Scene scene = *built_in_scene(GetParam());
+    const Camera camera = scene.cameras.front();
+    Studio studio(std::move(scene), fixed_size(Scheme::best, Aov::radiance));
+    studio.cycle.look_from({camera, 160, 120});
+    studio.cycle.run();
+    const Image picture = studio.cycle.picture();
+    const IdMap& map = studio.cycle.id_map();
+    std::size_t black = 0, surface = 0;
+    for (std::uint32_t i = 0; i < picture.pixels.size(); ++i) {
+        if (map.at_pixel(i).empty()) continue;
+        ++surface;
+        black += luminance(picture.pixels[i]) > 0 ? 0 : 1;
+    }
+    EXPECT_GT(surface, picture.pixels.size() / 3);
+    EXPECT_EQ(black, 0u) << "of " << surface;
+}
+
+INSTANTIATE_TEST_SUITE_P(BuiltIn, FirstPicture, testing::Values("cornell", "room"),
+                         [](const auto& which) { return std::string(which.param); });
+
+// The first picture of the best scheme costs about what its budget says: a fixed one of 0.15 s of
+// work in fixed cycles, whatever the size of the picture.
+TEST(FirstPicture, CostDoesNotGrowWithThePicture) {
+    std::size_t points[2] = {};
+    for (int i = 0; i < 2; ++i) {
+        Scene scene = make_cornell_box();
+        const Camera camera = scene.cameras.front();
+        Studio studio(std::move(scene), fixed_size(Scheme::best));
+        studio.cycle.look_from({camera, 160 << i, 120 << i});
+        studio.cycle.run();
+        points[i] = studio.points();
+    }
+    EXPECT_NEAR(double(points[1]) / double(points[0]), 1, 0.5);
+}
+
+}  // namespace
+}  // namespace chiaro

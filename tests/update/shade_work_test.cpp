@@ -1,0 +1,131 @@
+// What is asked of the sample renderer: each vertex once a cycle, and its sequence continued where
+// it was left.
+#include "update/shade_work.h"
+
+#include "sample_renderer/tiny_scenes.h"
+#include "update/timings.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace chiaro {
+namespace {
+
+// Answers with a constant and notes what it was asked.
+class Clerk : public SampleRenderer {
+public:
+    std::vector<ShadeRequest> asked;
+    void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) override {
+        asked.insert(asked.end(), requests.begin(), requests.end());
+        for (ShadeResult& r : results) r = {Rgb(3), Rgb(0.01f), false};
+    }
+};
+
+struct Desk {
+    Scene scene;
+    ShadingCache cache;
+    Clerk clerk;
+    PatchId root;
+
+    Desk() : scene(floor()), cache(scene, 2, SplitRule::by_shape) {
+        root = cache.root(ObjectId(0), 0, true);
+    }
+    static Scene floor() {
+        Scene scene;
+        tiny::add_quad(scene, Vec3(0), {1, 0, 0}, {0, 1, 0}, tiny::add_material(scene, Rgb(0.5f)));
+        return scene;
+    }
+    static std::vector<ChannelPlan> plans() {
+        return {{Light::direct, 32, 0}, {Light::indirect, 64, 0}};
+    }
+    VertexId corner(int i) const { return cache.patch(root).corners[i]; }
+};
+
+TEST(ShadeWork, AsksOnceForAVertexAndChannel) {
+    Desk desk;
+    ShadeWork work(Desk::plans(), 7);
+    EXPECT_TRUE(work.evaluate(desk.cache, desk.corner(0), 0));
+    EXPECT_FALSE(work.evaluate(desk.cache, desk.corner(0), 0)) << "asked for already";
+    EXPECT_FALSE(work.resample(desk.cache, desk.corner(0), 0)) << "asked for already";
+    EXPECT_TRUE(work.evaluate(desk.cache, desk.corner(0), 1)) << "another channel";
+    EXPECT_TRUE(work.evaluate(desk.cache, desk.corner(1), 0)) << "another vertex";
+    EXPECT_EQ(work.points(), 3u);
+    EXPECT_EQ(work.samples(0), 64u);
+    EXPECT_EQ(work.samples(1), 64u);
+
+    work.shade(desk.cache, desk.clerk, 0, 1);
+    EXPECT_EQ(desk.clerk.asked.size(), 2u);
+    EXPECT_NE(desk.clerk.asked[0].seed, desk.clerk.asked[1].seed);
+    ShadeWork next(Desk::plans(), 7);
+    EXPECT_FALSE(next.evaluate(desk.cache, desk.corner(0), 0)) << "evaluated";
+    EXPECT_TRUE(next.evaluate(desk.cache, desk.corner(0), 1)) << "asked for, never shaded";
+}
+
+// Samples are numbered: each request begins where the ones before it ended, with the same seed, and
+// doubles what there is, up to kMostAtOnce.
+TEST(ShadeWork, ContinuesTheSequence) {
+    Desk desk;
+    std::uint32_t taken = 0;
+    for (int round = 0; round < 12; ++round) {
+        ShadeWork work(Desk::plans(), 7);
+        EXPECT_TRUE(work.resample(desk.cache, desk.corner(2), 1));
+        work.shade(desk.cache, desk.clerk, 1, 1);
+        const ShadeRequest& request = desk.clerk.asked.back();
+        EXPECT_EQ(request.light, Light::indirect);
+        EXPECT_EQ(request.first_sample, taken);
+        EXPECT_EQ(request.samples, taken == 0 ? 64 : std::min(taken, ShadeWork::kMostAtOnce));
+        EXPECT_EQ(request.seed, desk.clerk.asked.front().seed);
+        taken += request.samples;
+        EXPECT_EQ(desk.cache.estimate(desk.corner(2), 1)->samples, taken);
+    }
+}
+
+// A vertex is its place: in another cache, with other ids, it draws the same numbers; under another
+// session's seed it draws others.
+TEST(ShadeWork, TheSeedIsThePlaces) {
+    Desk one, two;
+    two.cache.subdivide(two.cache.root(ObjectId(0), 0, false));
+    const auto seed = [](Desk& desk, std::uint64_t session) {
+        ShadeWork work(Desk::plans(), session);
+        work.evaluate(desk.cache, desk.corner(3), 0);
+        Clerk clerk;
+        ShadingCache copy = desk.cache;
+        work.shade(copy, clerk, 0, 1);
+        return clerk.asked.at(0).seed;
+    };
+    EXPECT_EQ(seed(one, 7), seed(two, 7));
+    EXPECT_NE(seed(one, 7), seed(one, 8));
+    EXPECT_NE(seed(one, 7), seed(one, 7 + (std::uint64_t{1} << 32)));
+}
+
+// Nested timers: the inner one's time is the inner step's alone, and the rows add up to what
+// passed.
+TEST(StepTimer, CountsNothingTwice) {
+    using namespace std::chrono_literals;
+    Timings timings;
+    const auto start = std::chrono::steady_clock::now();
+    {
+        const StepTimer outer(timings, Step::sample_selection);
+        std::this_thread::sleep_for(20ms);
+        {
+            const StepTimer inner(timings, Step::rendering);
+            std::this_thread::sleep_for(30ms);
+            const StepTimer innermost(timings, Step::aging);
+            std::this_thread::sleep_for(10ms);
+        }
+        const StepTimer second(timings, Step::rendering);
+        std::this_thread::sleep_for(10ms);
+    }
+    const double passed =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_GE(timings.of(Step::sample_selection), 0.020);
+    EXPECT_GE(timings.of(Step::rendering), 0.040);
+    EXPECT_GE(timings.of(Step::aging), 0.010);
+    EXPECT_LE(timings.total(), passed);
+    EXPECT_NEAR(timings.total(), passed, 0.001);
+    EXPECT_EQ(timings.of(Step::tessellation), 0);
+}
+
+}  // namespace
+}  // namespace chiaro
