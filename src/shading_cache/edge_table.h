@@ -32,7 +32,7 @@ public:
     }
 
     void clear() {
-        entries_ = {};
+        entries_ = std::vector<VertexId>();  // gives the memory back, as clear() would not
         count_ = 0;
     }
     std::size_t bytes() const { return entries_.capacity() * sizeof(VertexId); }

@@ -75,12 +75,24 @@ void evaluate_in_view(const ShadingCache& cache, std::span<const std::uint32_t> 
     }
 }
 
+namespace {
+
+bool all_dark(const ShadingCache& cache, const Patch& p) {
+    for (int c = 0; c < p.corner_count(); ++c)
+        if (!cache.dark(p.corners[c])) return false;
+    return true;
+}
+
+}  // namespace
+
 std::vector<PatchId> dug_in(const ShadingCache& cache, int channel) {
     std::vector<PatchId> found;
     for (std::size_t i = 0; i < cache.patches().size(); ++i) {
         const Patch& p = cache.patches()[i];
-        if (p.fragment_count <= kSmallest || cache.buried_corners(p) + 1 < p.corner_count())
-            continue;
+        if (cache.buried_corners(p) + 1 < p.corner_count()) continue;
+        // A patch whose corners found some light is exposed when it is small; one that would be
+        // black is divided to the last.
+        if (p.fragment_count <= (all_dark(cache, p) ? 1 : kSmallest)) continue;
         if (on_front(cache, static_cast<PatchId>(i), channel))
             found.push_back(static_cast<PatchId>(i));
     }
@@ -91,6 +103,7 @@ void expose_if_seen(ShadingCache& cache, PatchId id) {
     const Patch& p = cache.patch(id);
     if (p.fragment_count == 0 || p.fragment_count > kSeenAllOver) return;
     if (cache.buried_corners(p) < p.corner_count()) return;
+    if (p.fragment_count > 1 && all_dark(cache, p)) return;
     for (int c = 0; c < p.corner_count(); ++c) cache.expose(p.corners[c]);
 }
 

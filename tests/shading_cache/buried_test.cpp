@@ -100,12 +100,12 @@ TEST(Buried, ExposeBringsBackForGood) {
     EXPECT_EQ(s.cache.shown_total(s.corners[0]).irradiance, Rgb(8 + 2));
 }
 
-// Dark is known to be dark in every channel; what was not evaluated may be bright.
-TEST(Buried, DarkNeedsAllChannels) {
+// A vertex is dark when it was evaluated and no channel has found light yet; one that has is enough.
+TEST(Buried, OneLitChannelIsEnoughNotToBeDark) {
     Square s(2);
     EXPECT_FALSE(s.cache.dark(s.corners[0]));
     s.cache.store(s.corners[0], 0, Rgb(0), 0, 1, 1);
-    EXPECT_FALSE(s.cache.dark(s.corners[0]));
+    EXPECT_TRUE(s.cache.dark(s.corners[0]));
     s.cache.store(s.corners[0], 1, Rgb(0), 0, 1, 1);
     EXPECT_TRUE(s.cache.dark(s.corners[0]));
     s.cache.store(s.corners[0], 1, Rgb(1, 0, 0), 0, 1, 1);
