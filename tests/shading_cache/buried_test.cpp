@@ -100,7 +100,7 @@ TEST(Buried, ExposeBringsBackForGood) {
     EXPECT_EQ(s.cache.shown_total(s.corners[0]).irradiance, Rgb(8 + 2));
 }
 
-// A vertex is dark when it was evaluated and no channel has found light yet; one that has is enough.
+// A vertex is dark when it was evaluated and no channel has found light; one that has is enough.
 TEST(Buried, OneLitChannelIsEnoughNotToBeDark) {
     Square s(2);
     EXPECT_FALSE(s.cache.dark(s.corners[0]));
