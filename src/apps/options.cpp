@@ -72,6 +72,11 @@ void check_renderer(const std::string& text) {
     throw Error("--renderer", "there is no renderer '" + text + "'", "use path");
 }
 
+void check_time(const Options& options) {
+    if (options.time && !(*options.time >= 0 && std::isfinite(*options.time)))
+        throw Error("--time", "it must be a number of seconds, 0 or more");
+}
+
 std::uint32_t sample_count(const char* option, std::optional<int> value, std::uint32_t otherwise) {
     if (!value) return otherwise;
     if (*value < 1 || *value > 1 << 24)

@@ -50,6 +50,7 @@ Vec3 parse_vector(const std::string& option, const std::string& text);
 Scheme parse_scheme(const std::string& text);
 Aov parse_aov(const std::string& text);
 void check_renderer(const std::string& text);
+void check_time(const Options& options);
 std::uint32_t sample_count(const char* option, std::optional<int> value, std::uint32_t otherwise);
 
 /// Threads to use: what was asked for, or all that the machine has.

@@ -18,8 +18,7 @@ int reference_command(const Options& options) {
     check_renderer(options.renderer);
     if (options.spp && (*options.spp < 1 || *options.spp > 1 << 24))
         throw Error("--spp", "it must lie between 1 and 16777216");
-    if (options.time && !(*options.time >= 0 && std::isfinite(*options.time)))
-        throw Error("--time", "it must be a number of seconds, 0 or more");
+    check_time(options);
     const int threads = thread_count(options);
     const PictureSize size = parse_size(options.size);
     const Scene scene = open_scene(options);

@@ -28,8 +28,7 @@ UpdateSettings update_settings(const Options& options) {
 }
 
 void check_budget(const Options& options) {
-    if (options.time && !(*options.time >= 0 && std::isfinite(*options.time)))
-        throw Error("--time", "it must be a number of seconds, 0 or more");
+    check_time(options);
     constexpr std::uint64_t kMostPoints = 1'000'000'000'000;
     if (options.samples && (*options.samples == 0 || *options.samples > kMostPoints))
         throw Error("--samples", "it must lie between 1 and 1000000000000");

@@ -9,7 +9,7 @@ namespace {
 // coordinates.
 void hand_down(ShadingCache& cache, IdMap& map, PatchId parent, Cycle now) {
     const Patch& p = cache.patch(parent);
-    const auto range = std::span(map.order).subspan(p.first_fragment, p.fragment_count);
+    const auto range = fragments_of(map, p);
     const int children = child_count(p.split);
 
     std::array<std::vector<std::uint32_t>, 4> sorted;
