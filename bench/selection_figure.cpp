@@ -91,7 +91,8 @@ int run(int argc, char** argv) {
     save("1_mesh.png", draw_mesh(cycle.id_map()));
     save("2_image.png", before);
     save("3_priorities.png",
-         draw_priorities(make_priority_map(cycle.cache(), cycle.id_map(), cycle.exposure())));
+         draw_priorities(make_priority_map(cycle.cache(), cycle.id_map(), cycle.scale(),
+                                           static_cast<std::uint32_t>(cycle.statistics().cycles))));
     cycle.run();
     save("4_samples.png", draw_samples(before, cycle.last_selection()));
     save("5_new_mesh.png", draw_mesh(cycle.id_map()));

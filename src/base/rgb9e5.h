@@ -1,5 +1,5 @@
 // RGB9E5: three 9-bit mantissas and a shared 5-bit exponent in 32 bits (OpenGL 4.5, 8.25), the form
-// in which shading values go to the display. Relative step about 0.2 % of the largest channel.
+// in which shading values go to the display. Steps are 0.2 to 0.4 % of the largest channel.
 #pragma once
 
 #include "base/color.h"

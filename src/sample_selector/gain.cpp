@@ -20,6 +20,9 @@ constexpr float kContact = 0.25f;
 // buried.
 constexpr float kUnseen = 0.2f;
 
+// How much less a vertex that has found no light varies than one of the same samples that has.
+constexpr float kDoubt = 4;
+
 // New vertices a division makes on average, neighbours sharing the midpoints.
 constexpr float kNewInFour = 3;
 constexpr float kNewAcross = 1.5f;
@@ -85,12 +88,11 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
     const Corners corners = survey(cache, patch, channel);
 
     // Irradiance to the scale on which errors are seen, linearised at the patch's mean.
-    const float to_radiance =
-        settings.exposure * std::max<float>(patch.reflectance, 1) / 255.0f / kPi;
-    const float slope = comparison_slope(corners.light * to_radiance) * to_radiance;
+    const float to_picture = settings.scale.of(patch);
+    const float slope = comparison_slope(corners.light * to_picture) * to_picture;
 
     Gain result;
-    if (patch.fragment_count > 1) {
+    if (patch.fragment_count > 1 && patch.divisible()) {
         const float spread = corners.high - corners.low;
         float error2 =
             kSurplusNext * kSurplusNext * corners.surplus2 +
@@ -109,10 +111,16 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
     }
     for (int i = 0; i < corners.count; ++i) {
         const Estimate* e = cache.estimate(patch.corners[i], channel);
-        if (!e || cache.vertex(patch.corners[i]).buried || e->samples >= kMostSamples) continue;
+        if (!e || e->samples >= kMostSamples) continue;
+        float variance = e->variance;
+        if (settings.zero_is_doubtful[channel] && max_component(e->mean) == 0)
+            // As if one sample in this many found what lights the patch's other corners.
+            variance = corners.light * corners.light / (kDoubt * static_cast<float>(e->samples));
+        else if (cache.vertex(patch.corners[i]).buried)
+            continue;
         const float cost = static_cast<float>(e->samples) * settings.seconds_a_sample[channel];
         // Half the variance would go at this corner; but it shows in all patches round it.
-        const float drop = e->variance * slope * slope * fragments / cost;
+        const float drop = variance * slope * slope * fragments / cost;
         if (drop > result.resample) {
             result.resample = drop;
             result.noisiest = patch.corners[i];

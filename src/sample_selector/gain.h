@@ -2,7 +2,7 @@
 // screen over its cost.
 #pragma once
 
-#include "shading_cache/shading_cache.h"
+#include "sample_selector/priority_map.h"
 
 #include <array>
 
@@ -10,11 +10,12 @@ namespace chiaro {
 
 /// Costs and scales that gains are reckoned with.
 struct GainSettings {
-    float exposure = 1;      // radiance to the scale of comparison_curve()
+    PictureScale scale;      // irradiance to the scale of comparison_curve()
     float epsilon = 0.001f;  // error that is suspected everywhere, on the curve's scale (4.3)
     std::array<float, 8> seconds_a_sample{};  // a channel
     std::array<std::uint32_t, 8>
-        first_samples{};  // a channel: the fewest that a vertex starts with
+        first_samples{};                     // a channel: the fewest that a vertex starts with
+    std::array<bool, 8> zero_is_doubtful{};  // a channel: no light found is not yet none there
 };
 
 /// Two ways to spend on a patch of a channel's front: evaluate its midpoints, or take more samples

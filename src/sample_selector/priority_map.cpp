@@ -1,5 +1,6 @@
 #include "sample_selector/priority_map.h"
 
+#include "base/random.h"
 #include "base/tone_map.h"
 
 #include <algorithm>
@@ -7,9 +8,25 @@
 #include <limits>
 
 namespace chiaro {
+namespace {
 
-float interpolation_error(const ShadingCache& cache, const Patch& leaf, float exposure) {
-    const float scale = exposure * static_cast<float>(leaf.reflectance) / 255 / kPi;
+PatchId choose_leaf(std::span<const Fragment> fragments, float u) {
+    if (fragments.size() == 1) return fragments.front().patch;
+    float rest = 0;
+    for (const Fragment& f : fragments) rest += luminance(f.reflectance);
+    rest *= u;
+    for (const Fragment& f : fragments) {
+        rest -= luminance(f.reflectance);
+        if (rest < 0) return f.patch;
+    }
+    return fragments.back().patch;
+}
+
+}  // namespace
+
+float interpolation_error(const ShadingCache& cache, const Patch& leaf,
+                          const PictureScale& picture) {
+    const float scale = picture.of(leaf);
     float low = kInfinity;
     float high = -kInfinity;
     for (int c = 0; c < leaf.corner_count(); ++c) {
@@ -21,7 +38,8 @@ float interpolation_error(const ShadingCache& cache, const Patch& leaf, float ex
     return high - low;
 }
 
-PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map, float exposure) {
+PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map,
+                              const PictureScale& scale, std::uint32_t turn) {
     PriorityMap result;
     result.width = map.width;
     result.height = map.height;
@@ -34,10 +52,10 @@ PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map, float
     for (std::uint32_t p = 0; p < pixels; ++p) {
         const auto fragments = map.at_pixel(p);
         if (fragments.empty()) continue;
-        const PatchId leaf = fragments.front().patch;
+        const PatchId leaf = choose_leaf(fragments, to_unit_float(hash32(turn, p)));
         float& priority = by_patch[index_of(leaf)];
         if (std::isnan(priority)) {
-            priority = interpolation_error(cache, cache.patch(leaf), exposure);
+            priority = interpolation_error(cache, cache.patch(leaf), scale);
             result.patch_priorities.push_back(priority);
         }
         result.patches[p] = leaf;

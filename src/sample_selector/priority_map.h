@@ -3,16 +3,29 @@
 
 #include "shading_cache/id_map.h"
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace chiaro {
 
-/// Priority of a leaf: the largest minus the smallest tone-mapped colour of its corners, at
-/// `exposure` and the patch's reflectance, in [0, 1]. A leaf with a corner that was never
-/// shaded: 1.
-float interpolation_error(const ShadingCache& cache, const Patch& leaf, float exposure);
+/// From the irradiance on a patch to the picture's values, on the scale that errors are seen on.
+struct PictureScale {
+    float exposure = 1;       // the picture's values to that scale
+    bool irradiance = false;  // the picture shows irradiance itself (Aov::irradiance)
+
+    /// What multiplies the patch's irradiance.
+    float of(const Patch& patch) const {
+        if (irradiance) return exposure;
+        // A black surface keeps a little weight: its texture may not be black all over.
+        return exposure * std::max<float>(patch.reflectance, 1) / 255.0f / kPi;
+    }
+};
+
+/// Priority of a leaf: the largest minus the smallest tone-mapped colour of its corners, in [0, 1].
+/// A leaf with a corner that was never shaded: 1.
+float interpolation_error(const ShadingCache& cache, const Patch& leaf, const PictureScale& scale);
 
 /// Priorities by pixel, made lazily for the leaves that cover one.
 struct PriorityMap {
@@ -28,8 +41,10 @@ struct PriorityMap {
     }
 };
 
-/// A pixel on an outline, which shows several leaves, stands for the first of them.
-PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map, float exposure);
+/// A pixel that shows several leaves, on an outline or through glass, stands for one of them,
+/// chosen in proportion to what it adds to the pixel by a number that depends on `turn` alone.
+PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map,
+                              const PictureScale& scale, std::uint32_t turn);
 
 /// The priorities that 4.2 maps to 0 and 1: four standard deviations below and above the average,
 /// each visible patch counting once.

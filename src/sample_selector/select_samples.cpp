@@ -2,7 +2,9 @@
 
 #include "base/error.h"
 
+#include <algorithm>
 #include <array>
+#include <map>
 
 namespace chiaro {
 
@@ -65,6 +67,17 @@ std::vector<SelectedPixel> flood_fill(const PriorityMap& map,
         }
     }
     return filled;
+}
+
+std::vector<SelectedPatch> count_by_patch(const PriorityMap& map,
+                                          const std::vector<SelectedPixel>& selection) {
+    std::map<PatchId, int> counts;
+    for (const SelectedPixel& s : selection) ++counts[map.patches[s.pixel]];
+    std::vector<SelectedPatch> patches;
+    for (const auto& [patch, samples] : counts) patches.push_back({patch, samples});
+    std::stable_sort(patches.begin(), patches.end(),
+                     [](const auto& a, const auto& b) { return a.samples > b.samples; });
+    return patches;
 }
 
 std::vector<SelectedPixel> select_samples(const PriorityMap& map, const SelectionSettings& settings,

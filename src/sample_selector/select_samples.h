@@ -33,6 +33,15 @@ std::vector<SelectedPixel> flood_fill(const PriorityMap& map,
                                       const std::vector<SelectedPixel>& selected,
                                       std::size_t count);
 
+/// A patch, and how many of the selected samples lie on it.
+struct SelectedPatch {
+    PatchId patch;
+    int samples;
+};
+/// The patches of the selected pixels, each once, those with the most samples first (3.1).
+std::vector<SelectedPatch> count_by_patch(const PriorityMap& map,
+                                          const std::vector<SelectedPixel>& selection);
+
 /// Both phases.
 std::vector<SelectedPixel> select_samples(const PriorityMap& map, const SelectionSettings& settings,
                                           Rng& rng);

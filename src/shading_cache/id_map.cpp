@@ -35,7 +35,10 @@ void hand_down(ShadingCache& cache, IdMap& map, PatchId parent, Cycle now) {
 }  // namespace
 
 void attach(ShadingCache& cache, IdMap& map, Cycle now) {
-    for (Patch& patch : cache.patches()) patch.fragment_count = 0;
+    for (Patch& patch : cache.patches()) {
+        if (patch.fragment_count > 0) patch.last_seen = now;  // in view until now
+        patch.fragment_count = 0;
+    }
 
     // Fragments by root: count, place, fill.
     for (const Fragment& f : map.fragments) ++cache.patch(f.patch).fragment_count;

@@ -35,8 +35,8 @@ struct IdMap {
 };
 
 /// Makes `map` the view of the cache: hands each fragment, which names a root and a place on it,
-/// down to its leaf, counts fragments of all patches, and marks these as seen. What was seen before
-/// is not.
+/// down to its leaf, counts fragments of all patches, and marks these as seen, as well as what the
+/// view before this one showed until now.
 void attach(ShadingCache& cache, IdMap& map, Cycle now);
 
 /// Divides a leaf and hands its fragments to the children. Returns the first child.

@@ -61,7 +61,8 @@ Rgb irradiance_at(const ShadingCache& cache, PatchId leaf, Vec2 local) {
     total.add(centre.result(), place.centre);
     total.add(cache.shown_total(a), place.a);
     total.add(cache.shown_total(b), place.b);
-    return total.result().irradiance;
+    // On an edge between hollow vertices the centre still knows something.
+    return (total.weight > 0 ? total : centre).result().irradiance;
 }
 
 }  // namespace chiaro

@@ -28,12 +28,15 @@ inline PatchId offset_by(PatchId id, int n) {
 /// values at the children's new corners were asked for. Patches whose ancestors are all refined in
 /// a channel and that are not themselves form that channel's front, where its refinement goes on.
 struct Patch {
+    /// Patches of this level are not divided: places on them are as close as floats tell apart.
+    static constexpr int kDeepest = 22;
+
     std::array<VertexId, 4> corners;      // counter-clockwise; corners[3] is none on a triangle
     std::uint32_t parent;                 // a PatchId; on a root, the index of its surface side
     PatchId first_child = PatchId::none;  // the children are consecutive
     std::uint32_t first_fragment = 0;     // what of the view lies on it: IdMap::order
     std::uint32_t fragment_count = 0;
-    Cycle last_seen = 0;  // last cycle in which it covered part of a pixel
+    Cycle last_seen = 0;  // last cycle known to have seen it; of what is in view, see attach()
     Split split = Split::none;
     std::uint8_t level = 0;             // 0 on a root
     std::uint8_t refined_channels = 0;  // bit c: channel c is refined here
@@ -41,6 +44,7 @@ struct Patch {
 
     bool is_root() const { return level == 0; }
     bool is_leaf() const { return split == Split::none; }
+    bool divisible() const { return level < kDeepest; }
     bool is_quad() const { return corners[3] != VertexId::none; }
     int corner_count() const { return is_quad() ? 4 : 3; }
     bool refined(int channel) const { return refined_channels >> channel & 1; }

@@ -66,6 +66,7 @@ PatchId ShadingCache::root(ObjectId object, std::uint32_t primitive, bool front)
 
 PatchId ShadingCache::subdivide(PatchId leaf) {
     check(patch(leaf).is_leaf(), "subdivide: the patch has children already");
+    check(patch(leaf).divisible(), "subdivide: the patch is too small to be divided");
     const Split split = choose_split(leaf);
     const auto first = static_cast<PatchId>(patches_.size());
     std::array<VertexId, kCentre + 1> made;  // vertices by node, each made when first needed
@@ -144,7 +145,6 @@ VertexId ShadingCache::add_vertex(PatchId id, Vec2 local, std::span<const Vertex
     const bool quad = patch(id).is_quad();
     const Vec2 centre = quad ? Vec2(0.5f) : Vec2(1.0f / 3);
     CacheVertex vertex;
-    vertex.hollow = parents.empty() ? 1 : 0;
     vertex.surface_side = surface_side(id) & 0x1fff'ffffU;
     vertex.uv = surface_uv(id, glm::mix(local, centre, kPull));
     for (std::size_t i = 0; i < parents.size(); ++i) {
@@ -156,8 +156,9 @@ VertexId ShadingCache::add_vertex(PatchId id, Vec2 local, std::span<const Vertex
     for (int c = 0; c < channels(); ++c) {
         append(slots_[c], kNoSlot);
         append(shown_[c], std::uint32_t{0});
-        if (!parents.empty()) resolve_vertex(made, c);
     }
+    resolve_hollow(made);
+    for (int c = 0; c < channels() && !parents.empty(); ++c) resolve_vertex(made, c);
     return made;
 }
 

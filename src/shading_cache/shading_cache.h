@@ -47,7 +47,7 @@ public:
     PatchId root(ObjectId object, std::uint32_t primitive, bool front);
 
     /// Divides `leaf` and returns the first child. Midpoints that a neighbour has made already are
-    /// shared, so that nothing is shaded twice. Checks: `leaf` has no children.
+    /// shared, so that nothing is shaded twice. Checks: `leaf` has no children and is divisible.
     PatchId subdivide(PatchId leaf);
 
     /// Deletes everything below `patch`, which becomes a leaf, at the next pack() (3.1, aging).
@@ -82,7 +82,9 @@ public:
                Cycle now);
     /// Most rays from the vertex met the inside of a solid (design: buried vertices).
     void mark_buried(VertexId vertex);
-    /// It was evaluated, and no channel has found any light.
+    /// More samples have told otherwise.
+    void unmark_buried(VertexId vertex);
+    /// All channels were evaluated, and none has found any light.
     bool dark(VertexId vertex) const;
     /// A vertex that was taken for buried is in view: its estimates count after all, and for good.
     void expose(VertexId vertex);
@@ -113,6 +115,7 @@ private:
     void resolve_hollow(VertexId vertex);
     float first_surplus(VertexId vertex, int channel, Rgb mean, float variance) const;
     void resolve_vertex(VertexId vertex, int channel);
+    void show(VertexId vertex, int channel, Rgb irradiance);
     SurfacePoint place(std::uint32_t surface_side, Vec2 uv) const;
     void pack_channels(const std::vector<char>& vertex_kept);
 
@@ -129,7 +132,8 @@ private:
     static constexpr std::uint32_t kNoSlot = 0xffff'ffff;
     std::vector<std::vector<std::uint32_t>> slots_;  // a channel: vertex to estimate, or kNoSlot
     std::vector<std::vector<Estimate>> estimates_;   // a channel: only what was evaluated
-    std::vector<std::vector<std::uint32_t>> shown_;  // a channel: RGB9E5 by vertex
+    std::vector<std::vector<std::uint32_t>> shown_;  // a channel: RGB9E5 by vertex, in shown_unit_
+    float shown_unit_ = 0x1p-60f;  // [lux], a power of two; raised when something brighter comes
 };
 
 /// Appends with capacity growing by a 32nd: memory is part of what we promise.

@@ -70,21 +70,24 @@ void ShadingCache::mark_buried(VertexId id) {
     for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
 }
 
+void ShadingCache::unmark_buried(VertexId id) {
+    if (!vertex(id).buried) return;
+    vertices_[index_of(id)].buried = 0;
+    resolve_hollow(id);
+    for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
+}
+
 bool ShadingCache::dark(VertexId id) const {
-    bool any_estimate = false;
     for (int c = 0; c < channels(); ++c) {
         const Estimate* e = estimate(id, c);
-        if (e && max_component(e->mean) > 0) return false;
-        any_estimate |= e != nullptr;
+        if (!e || max_component(e->mean) > 0) return false;
     }
-    return any_estimate;
+    return true;
 }
 
 void ShadingCache::expose(VertexId id) {
     vertices_[index_of(id)].exposed = 1;
-    vertices_[index_of(id)].buried = 0;
-    resolve_hollow(id);
-    for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
+    unmark_buried(id);
 }
 
 int ShadingCache::buried_corners(const Patch& patch) const {
@@ -94,7 +97,8 @@ int ShadingCache::buried_corners(const Patch& patch) const {
 }
 
 Shown ShadingCache::shown(VertexId id, int channel) const {
-    return {unpack_rgb9e5(shown_[channel][index_of(id)]), vertex(id).hollow ? 0.0f : 1.0f};
+    return {unpack_rgb9e5(shown_[channel][index_of(id)]) * shown_unit_,
+            vertex(id).hollow ? 0.0f : 1.0f};
 }
 
 Shown ShadingCache::shown_total(VertexId id) const {
@@ -114,14 +118,29 @@ std::optional<Rgb> ShadingCache::predicted(const CacheVertex& v, int channel) co
         weight += v.weights[i];
     }
     if (weight == 0) return std::nullopt;
-    return sum / static_cast<float>(weight);
+    return sum * (shown_unit_ / static_cast<float>(weight));
 }
 
 void ShadingCache::resolve_vertex(VertexId id, int channel) {
     const CacheVertex& v = vertex(id);
     const Estimate* e = v.buried ? nullptr : estimate(id, channel);
     const Rgb value = e ? e->mean : predicted(v, channel).value_or(Rgb(0));
-    shown_[channel][index_of(id)] = pack_rgb9e5(value);
+    show(id, channel, value);
+}
+
+// The display's format reaches over 40 powers of two, lamps and starlight over more: its unit
+// follows the brightest value, with room for a few brighter ones.
+void ShadingCache::show(VertexId id, int channel, Rgb value) {
+    constexpr float kMostUnits = 65408, kRoom = 0x1p-8f;
+    if (max_component(value) > kMostUnits * shown_unit_) {
+        const float unit =
+            std::exp2(std::ceil(std::log2(max_component(value) / (kMostUnits * kRoom))));
+        for (auto& array : shown_)
+            for (std::uint32_t& bits : array)
+                bits = pack_rgb9e5(unpack_rgb9e5(bits) * (shown_unit_ / unit));
+        shown_unit_ = unit;
+    }
+    shown_[channel][index_of(id)] = pack_rgb9e5(value / shown_unit_);
 }
 
 void ShadingCache::resolve_hollow(VertexId id) {

@@ -34,7 +34,7 @@ void UpdateCycle::refine() {
 
 double UpdateCycle::seconds_budget() const {
     constexpr double kFixedSeconds = 0.05;
-    return settings_.fixed_size ? kFixedSeconds : settings_.cycle_seconds * settings_.threads;
+    return settings_.fixed_size ? kFixedSeconds : settings_.cycle_seconds * threads_at_once();
 }
 
 double UpdateCycle::work_seconds(const ShadeWork& work) const {
@@ -49,17 +49,31 @@ void UpdateCycle::choose(ShadeWork& work) {
     const double budget = seconds_budget();
     // Each choice either adds work or takes a patch out of the draw, so this ends.
     for (int tries = 0; tries < 200000 && work_seconds(work) < budget; ++tries) {
+        if (rng_.uniform() < kChance) {
+            spend_by_chance(work);
+            continue;
+        }
         PatchId patch = PatchId::none;
         int channel = 0;
-        if (rng_.uniform() < kChance) {
-            channel = static_cast<int>(rng_.below(static_cast<std::uint32_t>(cache_.channels())));
-            patch = front_patch_at(
-                rng_.below(static_cast<std::uint32_t>(map_.first_of_pixel.size() - 1)), channel);
-            if (patch == PatchId::none) continue;
-        } else if (!draw_patch(patch, channel)) {
-            break;
-        }
+        if (!draw_patch(patch, channel)) break;
         spend_on(patch, channel, work);
+    }
+}
+
+// Whatever lies below a random pixel is divided, or sampled again at a random corner: an error that
+// no estimate shows is found in the end.
+void UpdateCycle::spend_by_chance(ShadeWork& work) {
+    const auto below = [&](std::size_t n) { return rng_.below(static_cast<std::uint32_t>(n)); };
+    const int channel = static_cast<int>(below(cache_.channels()));
+    const PatchId id = front_patch_at(below(map_.first_of_pixel.size() - 1), channel);
+    if (id == PatchId::none) return;
+    const Patch& patch = cache_.patch(id);
+    if (rng_.below(2) == 0) {
+        work.resample(cache_, patch.corners[below(patch.corner_count())], channel);
+        touched_.emplace_back(id, channel);
+    } else if (patch.fragment_count > 1 && patch.divisible()) {
+        front_[channel].set(index_of(id), 0);
+        divide(id, channel, work);
     }
 }
 
@@ -130,6 +144,7 @@ void UpdateCycle::refresh() {
         cache_.resolve();
     }
     points_since_refresh_ = 0;
+    if (statistics_.points_shaded > 2 * points_at_exposure_) estimate_exposure();
     if (settings_.scheme == Scheme::paper) return;
     const StepTimer timer(statistics_.timings, Step::sample_selection);
     for (int c = 0; c < cache_.channels(); ++c) {

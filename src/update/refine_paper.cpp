@@ -5,27 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 
 namespace chiaro {
 namespace {
-
-struct SelectedPatch {
-    PatchId patch;
-    int samples;
-};
-
-// Each patch with the number of samples that lie on it, most first.
-std::vector<SelectedPatch> count_by_patch(const PriorityMap& map,
-                                          const std::vector<SelectedPixel>& selection) {
-    std::map<PatchId, int> counts;
-    for (const SelectedPixel& s : selection) ++counts[map.patches[s.pixel]];
-    std::vector<SelectedPatch> patches;
-    for (const auto& [patch, samples] : counts) patches.push_back({patch, samples});
-    std::stable_sort(patches.begin(), patches.end(),
-                     [](const auto& a, const auto& b) { return a.samples > b.samples; });
-    return patches;
-}
 
 bool all_evaluated(const ShadingCache& cache, const Patch& patch) {
     for (int c = 0; c < patch.corner_count(); ++c)
@@ -42,7 +24,8 @@ void UpdateCycle::refine_as_paper() {
     std::vector<SelectedPatch> selected;
     {
         const StepTimer timer(statistics_.timings, Step::sample_selection);
-        const PriorityMap map = make_priority_map(cache_, map_, gains_.exposure);
+        const PriorityMap map = make_priority_map(cache_, map_, gains_.scale,
+                                                  static_cast<std::uint32_t>(statistics_.cycles));
         SelectionSettings settings;
         settings.sample_count = settings_.fixed_size
                                     ? kFixedSampleCount
@@ -77,7 +60,7 @@ void UpdateCycle::shade_or_subdivide(PatchId id, ShadeWork& work) {
     };
     if (!all_evaluated(cache_, cache_.patch(id))) {
         evaluate(cache_.patch(id));
-    } else if (cache_.patch(id).fragment_count > 1) {
+    } else if (cache_.patch(id).fragment_count > 1 && cache_.patch(id).divisible()) {
         const PatchId first =
             subdivide_seen(cache_, map_, id, static_cast<Cycle>(statistics_.cycles));
         cache_.patch(id).refined_channels = 1;

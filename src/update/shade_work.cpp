@@ -9,7 +9,7 @@
 namespace chiaro {
 namespace {
 
-// A vertex is its place: the same vertex draws the same numbers whenever and wherever it is made.
+// A vertex is its place: made again there, it draws the same numbers.
 std::uint32_t vertex_seed(const CacheVertex& vertex, int channel, std::uint64_t session_seed) {
     std::uint32_t h = hash32(static_cast<std::uint32_t>(session_seed),
                              static_cast<std::uint32_t>(session_seed >> 32));
@@ -35,6 +35,7 @@ bool ShadeWork::evaluate(const ShadingCache& cache, VertexId vertex, int channel
 bool ShadeWork::resample(const ShadingCache& cache, VertexId vertex, int channel) {
     const Estimate* e = cache.estimate(vertex, channel);
     if (!e) return evaluate(cache, vertex, channel);
+    if (e->samples + kMostAtOnce > Estimate::kMostSamples) return false;
     return add(cache, vertex, channel, e->samples,
                std::min<std::uint32_t>(e->samples, kMostAtOnce));
 }
@@ -82,10 +83,53 @@ double ShadeWork::shade(ShadingCache& cache, SampleRenderer& renderer, int chann
         const ShadeResult& r = results[i];
         cache.store(c.vertices[i], channel, r.mean, luminance_variance(r.variance),
                     c.requests[i].samples, now);
-        const bool none = c.plan.zero_is_buried && cache.dark(c.vertices[i]);
-        if (c.plan.finds_buried && (r.buried || none)) cache.mark_buried(c.vertices[i]);
+        judge_buried(cache, c.vertices[i], channel, r.buried);
     }
     return seconds;
+}
+
+bool ShadeWork::surely_dark(const ShadingCache& cache, VertexId vertex) const {
+    bool enough = false;
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        if (!channels_[c].plan.zero_is_buried) continue;
+        const Estimate* e = cache.estimate(vertex, static_cast<int>(c));
+        if (!e || e->samples < kEnoughToBeDark) return false;
+        enough = true;
+    }
+    return enough && cache.dark(vertex);
+}
+
+void ShadeWork::judge_buried(ShadingCache& cache, VertexId vertex, int channel,
+                             bool found_buried) const {
+    const ChannelPlan& plan = channels_[channel].plan;
+    if (!plan.finds_buried) return;
+    if (found_buried || surely_dark(cache, vertex))
+        cache.mark_buried(vertex);
+    else if (plan.zero_is_buried && !cache.dark(vertex))
+        cache.unmark_buried(vertex);
+}
+
+ShadeWork ShadeWork::doubts(const ShadingCache& cache) const {
+    std::vector<ChannelPlan> plans;
+    for (const Channel& c : channels_) plans.push_back(c.plan);
+    ShadeWork more(plans, seed_);
+    const auto dark_so_far = [&](VertexId v, int channel) {
+        const Estimate* e = cache.estimate(v, channel);
+        return !e || max_component(e->mean) == 0;
+    };
+    const int count = static_cast<int>(channels_.size());
+    for (int c = 0; c < count; ++c) {
+        if (!channels_[c].plan.zero_is_buried) continue;
+        for (const VertexId v : channels_[c].vertices) {
+            if (cache.vertex(v).buried || cache.vertex(v).exposed) continue;
+            bool dark = true;
+            for (int other = 0; other < count; ++other) dark &= dark_so_far(v, other);
+            if (!dark) continue;
+            for (int other = 0; other < count; ++other) more.evaluate(cache, v, other);
+            if (cache.estimate(v, c)->samples < kEnoughToBeDark) more.resample(cache, v, c);
+        }
+    }
+    return more;
 }
 
 }  // namespace chiaro

@@ -4,7 +4,6 @@
 #include "sample_renderer/sample_renderer.h"
 #include "shading_cache/shading_cache.h"
 
-#include <array>
 #include <unordered_set>
 #include <vector>
 
@@ -15,8 +14,10 @@ struct ChannelPlan {
     Light light = Light::direct;
     std::uint32_t first_samples = 32;
     std::uint32_t indirect_samples = 0;  // of Light::total
-    bool finds_buried = false;    // vertices that its results show to be in a solid are marked so
-    bool zero_is_buried = false;  // so are those that it finds no light at, if no channel has any
+    bool finds_buried = false;  // vertices that its results show to be in a solid are marked so
+    // So are those at which it has found no light by kEnoughToBeDark samples, nor any other channel
+    // has; until it finds some after all.
+    bool zero_is_buried = false;
 };
 
 /// Requests of one cycle. Each (vertex, channel) is asked for at most once a cycle.
@@ -29,7 +30,8 @@ public:
     /// or asked for. Returns whether it was added.
     bool evaluate(const ShadingCache& cache, VertexId vertex, int channel,
                   std::uint32_t samples = 0);
-    /// Asks for as many samples again as an evaluated vertex has, at most kMostAtOnce.
+    /// Asks for as many samples again as an evaluated vertex has, at most kMostAtOnce, unless it
+    /// has all that are counted.
     bool resample(const ShadingCache& cache, VertexId vertex, int channel);
 
     std::size_t points() const;
@@ -39,11 +41,18 @@ public:
     /// Shades a channel's requests and stores what comes back. Returns the seconds that it took.
     double shade(ShadingCache& cache, SampleRenderer& renderer, int channel, Cycle now);
 
+    /// What it takes to know whether those vertices of this work that have found no light are dark:
+    /// the other channels, and more samples.
+    ShadeWork doubts(const ShadingCache& cache) const;
+
     static constexpr std::uint32_t kMostAtOnce = 8192;
+    static constexpr std::uint32_t kEnoughToBeDark = 256;
 
 private:
     bool add(const ShadingCache& cache, VertexId vertex, int channel, std::uint32_t first,
              std::uint32_t samples);
+    bool surely_dark(const ShadingCache& cache, VertexId vertex) const;
+    void judge_buried(ShadingCache& cache, VertexId vertex, int channel, bool found_buried) const;
 
     struct Channel {
         ChannelPlan plan;

@@ -31,7 +31,7 @@ void even_out(ShadingCache& cache, IdMap& map, int channel, std::size_t vertex_b
         const Patch& p = cache.patch(id);
         if (p.fragment_count == 0 || !on_front(cache, id, channel)) return;
         ++in_view;  // a regular mesh has about as many vertices as leaves
-        if (p.fragment_count > kSmallest) large.push({p.fragment_count, id});
+        if (p.fragment_count > kSmallest && p.divisible()) large.push({p.fragment_count, id});
     };
     for (std::size_t i = 0; i < cache.patches().size(); ++i) add(static_cast<PatchId>(i));
 
@@ -89,7 +89,7 @@ std::vector<PatchId> dug_in(const ShadingCache& cache, int channel) {
     std::vector<PatchId> found;
     for (std::size_t i = 0; i < cache.patches().size(); ++i) {
         const Patch& p = cache.patches()[i];
-        if (cache.buried_corners(p) + 1 < p.corner_count()) continue;
+        if (!p.divisible() || cache.buried_corners(p) + 1 < p.corner_count()) continue;
         // A patch whose corners found some light is exposed when it is small; one that would be
         // black is divided to the last.
         if (p.fragment_count <= (all_dark(cache, p) ? 1 : kSmallest)) continue;

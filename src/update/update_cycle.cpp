@@ -1,6 +1,7 @@
 #include "update/update_cycle.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/tone_map.h"
 #include "shading_cache/interpolate.h"
 #include "update/start_level.h"
@@ -57,7 +58,9 @@ UpdateCycle::UpdateCycle(const RayCaster& rays, SampleRenderer& renderer, OpenSi
         gains_.first_samples[c] = plans_[c].first_samples;
         gains_.seconds_a_sample[c] =
             static_cast<float>(plans_[c].light == Light::direct ? kDirectCost : kIndirectCost);
+        gains_.zero_is_doubtful[c] = plans_[c].zero_is_buried;
     }
+    gains_.scale.irradiance = settings.aov == Aov::irradiance;
 }
 
 void UpdateCycle::look_from(const View& view) {
@@ -67,6 +70,7 @@ void UpdateCycle::look_from(const View& view) {
 
 void UpdateCycle::run() {
     check(view_.has_value(), "UpdateCycle: look_from() comes before run()");
+    const auto start_time = std::chrono::steady_clock::now();
     switch (stage_) {
         case Stage::new_view:
             make_map(ViewQuality::one_ray);
@@ -84,6 +88,8 @@ void UpdateCycle::run() {
     }
     age();
     ++statistics_.cycles;
+    statistics_.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_time).count();
 }
 
 void UpdateCycle::make_map(ViewQuality quality) {
@@ -102,10 +108,13 @@ void UpdateCycle::start() {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
         const double seconds = settings_.fixed_size
                                    ? kFixedFirstPictureSeconds
-                                   : settings_.first_picture_seconds * settings_.threads;
+                                   : settings_.first_picture_seconds * threads_at_once();
         for (int c = 0; c < cache_.channels(); ++c) samples[c] = even_out_channel(c, seconds);
     }
-    evaluate_in_view(cache_, samples, work);
+    {
+        const StepTimer timer(statistics_.timings, Step::sample_selection);
+        evaluate_in_view(cache_, samples, work);
+    }
     shade(work);
     if (settings_.scheme == Scheme::best) dig_out();
     estimate_exposure();
@@ -115,6 +124,7 @@ void UpdateCycle::start() {
 // A face whose corners all lie in its neighbours would be black: divides such patches at once,
 // until something of them is known.
 void UpdateCycle::dig_out() {
+    const StepTimer timer(statistics_.timings, Step::sample_selection);
     constexpr int kMostRounds = 8;
     for (int round = 0; round < kMostRounds; ++round) {
         ShadeWork work(plans_, settings_.seed);
@@ -152,16 +162,30 @@ void UpdateCycle::shade(ShadeWork& work) {
             work.shade(cache_, *renderer_, c, static_cast<Cycle>(statistics_.cycles));
         statistics_.samples[c] += work.samples(c);
         if (settings_.fixed_size || work.samples(c) < 2000) continue;
-        const double measured = seconds * settings_.threads / static_cast<double>(work.samples(c));
+        const double measured = seconds * threads_at_once() / static_cast<double>(work.samples(c));
         gains_.seconds_a_sample[c] +=
             0.2f * (static_cast<float>(measured) - gains_.seconds_a_sample[c]);
     }
     statistics_.points_shaded += work.points();
     points_since_refresh_ += work.points();
+    // Where nothing was found, darkness is to be told from bad luck. Ends: samples double.
+    ShadeWork doubts = work.doubts(cache_);
+    if (doubts.points() > 0) shade(doubts);
+}
+
+// Asking for more threads than there are processors makes nothing faster.
+int UpdateCycle::threads_at_once() const {
+    return std::min(settings_.threads, hardware_threads());
+}
+
+Image UpdateCycle::picture() {
+    if (points_since_refresh_ > 0) cache_.resolve();
+    return draw(cache_, map_, settings_.threads);
 }
 
 // The scale on which errors are weighed: that of the pictures' comparison, from every few pixels.
 void UpdateCycle::estimate_exposure() {
+    const StepTimer timer(statistics_.timings, Step::sample_selection);
     Image thin(static_cast<int>(map_.first_of_pixel.size() / 7), 1);
     for (std::size_t i = 0; i < thin.pixels.size(); ++i) {
         const auto pixel = static_cast<std::uint32_t>(7 * i);
@@ -169,7 +193,8 @@ void UpdateCycle::estimate_exposure() {
         for (const Fragment& f : map_.at_pixel(pixel))
             thin.pixels[i] += f.reflectance * irradiance_at(cache_, f.patch, f.local);
     }
-    gains_.exposure = comparison_exposure(thin);
+    gains_.scale.exposure = comparison_exposure(thin);
+    points_at_exposure_ = statistics_.points_shaded;
 }
 
 void UpdateCycle::age() {

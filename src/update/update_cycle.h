@@ -26,7 +26,9 @@ struct UpdateSettings {
     std::uint32_t indirect_samples = 400;
     double cycle_seconds = 0.05;          // the length that a cycle adjusts itself to
     double first_picture_seconds = 0.15;  // what the first cycle may spend on shading
-    bool fixed_size = false;  // cycles of a fixed number of points: the same bits on any machine
+    // Cycles of a fixed size, by assumed costs instead of measured ones: the same bits on any
+    // machine.
+    bool fixed_size = false;
     AgingSettings aging;
 };
 
@@ -34,6 +36,7 @@ struct Statistics {
     std::size_t cycles = 0;
     std::size_t points_shaded = 0;         // evaluations of one channel at one vertex
     std::array<std::size_t, 8> samples{};  // a channel
+    double seconds = 0;                    // wall time of all cycles
     Timings timings;
 };
 
@@ -53,14 +56,14 @@ public:
     void run();
 
     /// The picture as it is now.
-    Image picture() const { return draw(cache_, map_, settings_.threads); }
+    Image picture();
 
     const ShadingCache& cache() const { return cache_; }
     const IdMap& id_map() const { return map_; }
     const Statistics& statistics() const { return statistics_; }
     /// Samples that the last cycle of the paper's scheme selected.
     const std::vector<SelectedPixel>& last_selection() const { return selection_; }
-    float exposure() const { return gains_.exposure; }
+    const PictureScale& scale() const { return gains_.scale; }
     std::size_t bytes() const;
 
 private:
@@ -74,6 +77,7 @@ private:
     void shade_or_subdivide(PatchId patch, ShadeWork& work);
     void age();
     void choose(ShadeWork& work);
+    void spend_by_chance(ShadeWork& work);
     bool draw_patch(PatchId& patch, int& channel);
     PatchId front_patch_at(std::uint32_t pixel, int channel);
     void spend_on(PatchId patch, int channel, ShadeWork& work);
@@ -81,6 +85,7 @@ private:
     float front_gain(PatchId patch, int channel) const;
     void refresh();
     void estimate_exposure();
+    int threads_at_once() const;
     double work_seconds(const ShadeWork& work) const;
     double seconds_budget() const;
 
@@ -99,6 +104,7 @@ private:
     std::vector<SumTree> front_;                    // a channel: gain by patch
     std::vector<std::pair<PatchId, int>> touched_;  // gains to reckon anew once shaded
     std::size_t points_since_refresh_ = 0;
+    std::size_t points_at_exposure_ = 0;
     double paper_sample_count_ = 70;
     std::vector<SelectedPixel> selection_;
     Statistics statistics_;

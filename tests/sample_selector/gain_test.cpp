@@ -96,7 +96,7 @@ TEST(Gain, GrowsWithTheSurplus) {
         if (miss > 0.5f) {
             EXPECT_GT(now, previous);
         } else {
-            EXPECT_GE(now, previous);  // a quarter of the parents' surplus is the least
+            EXPECT_GE(now, previous);  // a sixteenth of the parents' surplus is the least
         }
         previous = now;
     }
@@ -115,6 +115,41 @@ TEST(Gain, NoiseAsksForSamplesNotForRefinement) {
 
     noise.cache.store(noise.corners[2], 0, Rgb(8), 400, 64, 1);  // merged: 101
     EXPECT_EQ(noise.gain().noisiest, noise.corners[2]);
+}
+
+// No light found by 64 samples is not yet no light: where a channel says so, such a corner asks for
+// samples as long as its neighbours are lit, the less the more it has had. Else zero is certain.
+TEST(Gain, ZeroIsDoubtedWhereAChannelSaysSo) {
+    GainSettings doubtful = settings();
+    doubtful.zero_is_doubtful[0] = true;
+    Square s(100);
+    s.store({8, 8, 0, 8}, 0);
+    EXPECT_EQ(gain(s.cache, s.root, 0, settings()).resample, 0);
+    const Gain first = gain(s.cache, s.root, 0, doubtful);
+    EXPECT_GT(first.resample, 0);
+    EXPECT_EQ(first.noisiest, s.corners[2]);
+    s.cache.store(s.corners[2], 0, Rgb(0), 0, 64, 1);
+    EXPECT_NEAR(first.resample / gain(s.cache, s.root, 0, doubtful).resample, 4, 0.01f);
+
+    Square night(100);
+    night.store({0, 0, 0, 0}, 0);
+    EXPECT_EQ(gain(night.cache, night.root, 0, doubtful).resample, 0);
+}
+
+// In a picture of irradiance a surface's colour counts for nothing.
+TEST(Gain, APictureOfIrradianceDoesNotKnowColors) {
+    std::array<float, 2> gains{}, of_radiance{};
+    for (int i = 0; i < 2; ++i) {
+        Square s(100);
+        s.cache.patch(s.root).reflectance = i == 0 ? 0 : 255;
+        s.store({7, 9, 8, 8}, 1e-6f);
+        GainSettings irradiance = settings();
+        irradiance.scale.irradiance = true;
+        gains[i] = gain(s.cache, s.root, 0, irradiance).refine;
+        of_radiance[i] = s.gain().refine;
+    }
+    EXPECT_EQ(gains[0], gains[1]);
+    EXPECT_LT(of_radiance[0], of_radiance[1]);
 }
 
 // More samples at the noisiest corner lower its gain: variance falls as 1/n and the price of as

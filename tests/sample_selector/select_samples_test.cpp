@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <cmath>
 #include <set>
 
@@ -165,6 +167,21 @@ TEST(FloodFill, GoesUphillOnceFromTheSelected) {
             EXPECT_TRUE(reached);
             EXPECT_TRUE(taken.insert(s.pixel).second);
         }
+    }
+}
+
+// 3.1: the list of selected patches holds each once, those with more samples first.
+TEST(CountByPatch, MostSamplesFirst) {
+    const PriorityMap map = strips({{4, 0.1f}, {4, 0.2f}, {4, 0.3f}}, 12);
+    std::vector<SelectedPixel> selection;
+    for (const std::uint32_t pixel : {1u, 9u, 5u, 6u, 11u, 7u})
+        selection.push_back({pixel, SelectedBy::priority});
+    const auto patches = count_by_patch(map, selection);
+    ASSERT_EQ(patches.size(), 3u);
+    const std::array<std::pair<std::uint32_t, int>, 3> expected = {{{1, 3}, {2, 2}, {0, 1}}};
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(patches[i].patch, static_cast<PatchId>(expected[i].first));
+        EXPECT_EQ(patches[i].samples, expected[i].second);
     }
 }
 

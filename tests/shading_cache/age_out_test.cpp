@@ -45,14 +45,14 @@ TEST(AgeOut, DoesNothingWithinTheBudget) {
     EXPECT_TRUE(age_out(s.cache, {.budget_bytes = s.cache.bytes() - 1, .unseen_cycles = 1}, 1000));
 }
 
-// (a): above it, children that were not seen in N cycles go; those in view stay, though their mark
-// is as old. 42 patches are 21 + 21; 1 + 21 are left.
+// (a): above it, children that were not seen in N cycles go, counted from when they left the view;
+// those in view stay, though their mark is as old. 42 patches are 21 + 21; 1 + 21 are left.
 TEST(AgeOut, DeletesWhatWasNotSeenInTime) {
     Seen s;
     s.look({true, false}, 2000, 5);
-    EXPECT_FALSE(age_out(s.cache, kNoMemory, 11));  // seen in cycle 1: 10 cycles ago
+    EXPECT_FALSE(age_out(s.cache, kNoMemory, 15));  // in view until cycle 5: 10 cycles ago
     const std::size_t bytes = s.cache.bytes();
-    EXPECT_TRUE(age_out(s.cache, kNoMemory, 12));
+    EXPECT_TRUE(age_out(s.cache, kNoMemory, 16));
     EXPECT_EQ(s.cache.patches().size(), 1u + 21);
     EXPECT_TRUE(s.cache.patch(s.root(1)).is_leaf());
     EXPECT_FALSE(s.cache.patch(s.root(0)).is_leaf());

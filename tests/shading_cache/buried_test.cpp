@@ -69,7 +69,6 @@ TEST(Buried, HollownessIsInheritedUntilLightIsFound) {
     s.cache.mark_buried(s.corners[0]);
     s.cache.mark_buried(s.corners[1]);
     const VertexId midpoint = s.cache.patch(s.cache.subdivide(s.root)).corners[1];
-    s.cache.resolve();
     EXPECT_EQ(s.cache.shown(midpoint, 0).weight, 0);
     s.cache.store(midpoint, 0, Rgb(4), 0, 1, 1);
     EXPECT_EQ(s.cache.shown(midpoint, 0).weight, 1);
@@ -83,6 +82,27 @@ TEST(Buried, AllHollowIsBlack) {
     s.store_corners(8);
     for (const VertexId v : s.corners) s.cache.mark_buried(v);
     EXPECT_EQ(irradiance_at(s.cache, s.root, {0.3f, 0.4f}), Rgb(0));
+}
+
+// On an edge both of whose ends are hollow, the patch's other corners are what is known.
+TEST(Buried, AnEdgeOfHollowEndsShowsTheCentre) {
+    Square s;
+    s.store_corners(8);
+    s.cache.mark_buried(s.corners[0]);
+    s.cache.mark_buried(s.corners[1]);
+    EXPECT_EQ(irradiance_at(s.cache, s.root, {0.3f, 0}), Rgb(8));
+    EXPECT_EQ(irradiance_at(s.cache, s.root, {0.3f, 1e-6f}), Rgb(8));
+}
+
+// What more samples tell brings a buried vertex back, and may bury it again.
+TEST(Buried, IsNotForGood) {
+    Square s;
+    s.store_corners(8);
+    s.cache.mark_buried(s.corners[0]);
+    s.cache.unmark_buried(s.corners[0]);
+    EXPECT_EQ(s.cache.shown(s.corners[0], 0).weight, 1);
+    s.cache.mark_buried(s.corners[0]);
+    EXPECT_EQ(s.cache.shown(s.corners[0], 0).weight, 0);
 }
 
 // A vertex that is in view after all gets its estimate back, and is not buried again.
@@ -100,12 +120,13 @@ TEST(Buried, ExposeBringsBackForGood) {
     EXPECT_EQ(s.cache.shown_total(s.corners[0]).irradiance, Rgb(8 + 2));
 }
 
-// A vertex is dark when it was evaluated and no channel has found light; one that has is enough.
+// A vertex is dark when all channels were evaluated and none has found light; one that has is
+// enough.
 TEST(Buried, OneLitChannelIsEnoughNotToBeDark) {
     Square s(2);
     EXPECT_FALSE(s.cache.dark(s.corners[0]));
     s.cache.store(s.corners[0], 0, Rgb(0), 0, 1, 1);
-    EXPECT_TRUE(s.cache.dark(s.corners[0]));
+    EXPECT_FALSE(s.cache.dark(s.corners[0]));
     s.cache.store(s.corners[0], 1, Rgb(0), 0, 1, 1);
     EXPECT_TRUE(s.cache.dark(s.corners[0]));
     s.cache.store(s.corners[0], 1, Rgb(1, 0, 0), 0, 1, 1);

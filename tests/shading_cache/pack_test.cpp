@@ -15,15 +15,26 @@ void expect_same_tree(const ShadingCache& before, PatchId a, const ShadingCache&
     const Patch& q = after.patch(b);
     ASSERT_EQ(p.corner_count(), q.corner_count());
     EXPECT_EQ(p.last_seen, q.last_seen);
+    EXPECT_EQ(p.level, q.level);
+    EXPECT_EQ(p.reflectance, q.reflectance);
+    if (!q.is_leaf()) {
+        EXPECT_EQ(p.refined_channels, q.refined_channels);
+    }
     for (int i = 0; i < p.corner_count(); ++i) {
         const VertexId v = p.corners[i], w = q.corners[i];
         EXPECT_EQ(before.vertex(v).uv, after.vertex(w).uv);
         EXPECT_EQ(before.vertex(v).surface_side, after.vertex(w).surface_side);
+        EXPECT_EQ(before.vertex(v).weights, after.vertex(w).weights);
+        EXPECT_EQ(before.vertex(v).buried, after.vertex(w).buried);
+        EXPECT_EQ(before.vertex(v).exposed, after.vertex(w).exposed);
+        EXPECT_EQ(before.vertex(v).hollow, after.vertex(w).hollow);
         EXPECT_EQ(before.shown(v, 0).irradiance, after.shown(w, 0).irradiance);
         const Estimate *e = before.estimate(v, 0), *f = after.estimate(w, 0);
         ASSERT_EQ(e != nullptr, f != nullptr);
         if (e) {
-            EXPECT_TRUE(e->mean == f->mean && e->variance == f->variance);
+            EXPECT_TRUE(e->mean == f->mean && e->variance == f->variance &&
+                        e->surplus == f->surplus && e->samples == f->samples &&
+                        e->shaded_at == f->shaded_at);
         }
     }
     if (q.is_leaf()) return;
@@ -48,6 +59,13 @@ struct Divided {
                 cache.store(static_cast<VertexId>(v), 0,
                             50.0f * Rgb(rng.uniform(), rng.uniform(), rng.uniform()), rng.uniform(),
                             1 + rng.below(9), 1);
+        // Some buried, some exposed, some refined: all of a record has something to lose.
+        for (std::uint32_t v = 0; v < cache.vertices().size(); v += 7) {
+            cache.mark_buried(static_cast<VertexId>(v));
+            if (v % 2 == 0) cache.expose(static_cast<VertexId>(v));
+        }
+        for (Patch& p : cache.patches())
+            if (!p.is_leaf()) p.refined_channels = static_cast<std::uint8_t>(rng.below(2));
         cache.resolve();
     }
     Divided(const Divided&) = delete;

@@ -49,5 +49,29 @@ TEST(FirstPicture, CostDoesNotGrowWithThePicture) {
     EXPECT_NEAR(double(points[1]) / double(points[0]), 1, 0.5);
 }
 
+// A ground of 2000 km under an eye at 1.7 m is divided as far as places on it can be told apart.
+TEST(FirstPicture, AGroundWithoutEnd) {
+    Scene scene;
+    const MaterialId grey = tiny::add_material(scene, Rgb(0.5f));
+    tiny::add_quad(scene, {-1e6f, -1e6f, 0}, {2e6f, 0, 0}, {0, 2e6f, 0}, grey);
+    PunctualLight sun;
+    sun.kind = LightKind::directional;
+    sun.intensity = Rgb(1000);
+    sun.direction = {0, 0, -1};
+    scene.lights.push_back(sun);
+    for (const Scheme scheme : {Scheme::best, Scheme::paper}) {
+        Studio studio(scene, fixed_size(scheme));
+        Camera camera;
+        camera.eye = {0, 0, 1.7f};
+        camera.target = {1, 0, 1.7f};
+        camera.up = {0, 0, 1};
+        studio.cycle.look_from({camera, 160, 120});
+        studio.run(60);
+        const Image picture = studio.cycle.picture();
+        for (int y = 90; y < 120; ++y)
+            EXPECT_NEAR(luminance(picture.at(80, y)), 1000, 10) << y;  // lux, everywhere
+    }
+}
+
 }  // namespace
 }  // namespace chiaro

@@ -16,9 +16,10 @@ namespace {
 class Clerk : public SampleRenderer {
 public:
     std::vector<ShadeRequest> asked;
+    Rgb answer = Rgb(3);
     void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) override {
         asked.insert(asked.end(), requests.begin(), requests.end());
-        for (ShadeResult& r : results) r = {Rgb(3), Rgb(0.01f), false};
+        for (ShadeResult& r : results) r = {answer, 0.01f * answer, false};
     }
 };
 
@@ -97,6 +98,33 @@ TEST(ShadeWork, TheSeedIsThePlaces) {
     EXPECT_EQ(seed(one, 7), seed(two, 7));
     EXPECT_NE(seed(one, 7), seed(one, 8));
     EXPECT_NE(seed(one, 7), seed(one, 7 + (std::uint64_t{1} << 32)));
+}
+
+// A vertex that 64 samples found no light at is not buried: it is evaluated in the other channels
+// and sampled until 256 have found none, and then again if light is found after all.
+TEST(ShadeWork, DarknessTakesSamplesToBelieve) {
+    Desk desk;
+    desk.clerk.answer = Rgb(0);
+    auto plans = Desk::plans();
+    plans[1].finds_buried = plans[1].zero_is_buried = true;
+    plans[0].finds_buried = true;
+    ShadeWork work(plans, 7);
+    work.evaluate(desk.cache, desk.corner(0), 1);
+    std::vector<std::uint32_t> samples;
+    while (work.points() > 0) {
+        for (const int c : {0, 1}) work.shade(desk.cache, desk.clerk, c, 1);
+        samples.push_back(desk.cache.estimate(desk.corner(0), 1)->samples);
+        EXPECT_EQ(desk.cache.vertex(desk.corner(0)).buried, samples.back() >= 256);
+        work = work.doubts(desk.cache);
+    }
+    EXPECT_EQ(samples, (std::vector<std::uint32_t>{64, 128, 256}));
+    EXPECT_TRUE(desk.cache.evaluated(desk.corner(0), 0));
+
+    desk.clerk.answer = Rgb(3);
+    ShadeWork more(plans, 7);
+    more.resample(desk.cache, desk.corner(0), 1);
+    more.shade(desk.cache, desk.clerk, 1, 2);
+    EXPECT_FALSE(desk.cache.vertex(desk.corner(0)).buried);
 }
 
 // Nested timers: the inner one's time is the inner step's alone, and the rows add up to what
