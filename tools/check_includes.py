@@ -22,18 +22,20 @@ RANK_OF = {folder: rank for rank, folders in enumerate(RANKS) for folder in fold
 
 OWNERS = [  # how the name of a library's header begins, and the folders that may include it
     ("embree", {"rays"}),
+    ("tbb|oneapi", {"base", "rays"}),
+    ("fmt", {"import"}),
     ("tiny_gltf|spng|jpeglib|turbojpeg|OpenEXR|Imf|Imath", {"import"}),
     ("nlohmann", {"import", "apps"}),
     ("CLI", {"apps"}),
     ("GLFW|imgui|epoxy", {"user_interaction", "image_generator"}),
 ]
-INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
+INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
-def fault(folder, quote, header):
+def fault(folder, header):
     """Why a file of `folder` may not include `header`, or None."""
     first = header.split("/")[0]
-    if quote == '"' and first in RANK_OF and "/" in header:
+    if first in RANK_OF and "/" in header:
         if first != folder and RANK_OF[first] >= RANK_OF[folder]:
             return f"{folder} (rank {RANK_OF[folder]}) may not include {first} (rank {RANK_OF[first]})"
         return None
@@ -54,7 +56,7 @@ def main(root):
             continue
         for number, line in enumerate(path.read_text().splitlines(), 1):
             match = INCLUDE.match(line)
-            why = match and fault(folder, *match.groups())
+            why = match and fault(folder, match[1])
             if why:
                 faults.append(f"{path}:{number}: {why}")
     print("\n".join(faults), end="\n" if faults else "")

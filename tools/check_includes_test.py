@@ -11,14 +11,18 @@ SCRIPT = pathlib.Path(__file__).with_name("check_includes.py")
 ALLOWED = {
     "src/base/a.h": '#include <vector>\n#include "base/b.h"\n',
     "src/scene/a.h": '#include "base/a.h"\n',
-    "src/rays/a.cpp": '#include <embree3/rtcore.h>\n#include "scene/a.h"\n',
-    "src/import/a.cpp": "#include <tiny_gltf.h>\n#include <ImfRgbaFile.h>\n",
+    "src/base/a.cpp": "#include <tbb/parallel_for.h>\n",
+    "src/rays/a.cpp": '#include <embree3/rtcore.h>\n#include <tbb/task_arena.h>\n#include "scene/a.h"\n',
+    "src/import/a.cpp": "#include <tiny_gltf.h>\n#include <ImfRgbaFile.h>\n#include <fmt/format.h>\n",
     "src/apps/a.cpp": '#include <CLI/CLI.hpp>\n#include <nlohmann/json.hpp>\n#include "rays/a.h"\n',
     "src/update/a.cpp": '// #include "apps/a.h"\n',
 }
 REFUSED = {
     "src/base/up.h": '\n#include "scene/a.h"\n',
     "src/rays/sideways.h": '\n#include "import/a.h"\n',
+    "src/rays/angled.h": "\n#include <update/a.h>\n",
+    "src/update/tbb.cpp": "\n#include <tbb/parallel_for.h>\n",
+    "src/scene/fmt.cpp": "\n#include <fmt/format.h>\n",
     "src/scene/embree.cpp": "\n#include <embree3/rtcore.h>\n",
     "src/rays/json.cpp": "\n# include <nlohmann/json.hpp>\n",
     "src/update/cli.cpp": "\n#include <CLI/CLI.hpp>\n",

@@ -2,7 +2,7 @@
 
 #include "apps/commands.h"
 #include "apps/open_scene.h"
-#include "apps/output.h"
+#include "import/fault.h"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -3,12 +3,12 @@
 #include "apps/commands.h"
 #include "apps/output.h"
 #include "base/error.h"
+#include "import/fault.h"
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <functional>
 #include <new>
 
@@ -18,17 +18,13 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kBadInput = 2;
 
-void complain(const std::string& what) {
-    std::fprintf(stderr, "chiaro: %s\n", printable(what).c_str());
-}
-
 int comes_later(const std::string& command) {
     complain(command + " comes in a later version; chiaro render makes pictures now");
     return kFailed;
 }
 
 bool names_scene(const std::string& word) {
-    const std::string ending = std::filesystem::path(word).extension().string();
+    const std::string ending = lower_extension(word);
     return word.starts_with("builtin:") || ending == ".gltf" || ending == ".glb" ||
            ending == ".obj";
 }
@@ -59,6 +55,10 @@ std::string in_our_words(const CLI::ParseError& e) {
                "' is no such number";
     if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr && colon != std::string::npos)
         return "not expected here: " + what.substr(colon + 2);
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&e) != nullptr && colon != std::string::npos)
+        return what.substr(0, colon) + (what.find("At Most 1 ") == std::string::npos
+                                            ? ": its value is missing"
+                                            : ": is given more than once");
     return what;
 }
 
@@ -75,7 +75,7 @@ void add_picture_commands(CLI::App& app, Options& o, Run& run) {
     render
         .add_option("--samples", o.samples,
                     "points to shade instead: the same picture on any number of threads")
-        ->check(not_negative());
+        ->check(whole_number());
     render.add_option("--scheme", o.scheme, "best, or paper: as published in 2002")
         ->capture_default_str();
     render.add_option("--direct-samples", o.direct_samples,

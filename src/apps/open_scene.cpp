@@ -2,11 +2,11 @@
 
 #include "apps/output.h"
 #include "base/error.h"
-#include "import/load_scene.h"
+#include "import/directions.h"
+#include "import/finish_scene.h"
 #include "scene/built_in.h"
 
-#include <cmath>
-#include <cstdio>
+#include <algorithm>
 
 namespace chiaro {
 namespace {
@@ -29,12 +29,18 @@ const Camera& named_camera(const Scene& scene, const std::string& name) {
                 names.empty() ? "it has none: use --eye and --target" : "it has " + join(names));
 }
 
+Vec3 parse_place(const std::string& option, const std::string& text) {
+    const Vec3 place(parse_vector(option, text));
+    if (!within_reach(place)) throw Error(option, "'" + text + "' has coordinates beyond 1e9");
+    return place;
+}
+
 }  // namespace
 
 Scene open_scene(const Options& options) {
-    if (!(options.scale > 0) || !std::isfinite(options.scale))
-        throw Error("--scale", "it must be a finite number above 0");
     if (options.scene.empty()) throw Error("SCENE", "no file is named");
+    LoadOptions load = {.scale = options.scale};
+    if (!options.up.empty()) load.up = unit_or_zero(parse_vector("--up", options.up));
     Scene scene;
     if (options.scene.starts_with(kBuiltIn)) {
         auto built_in = built_in_scene(options.scene.substr(kBuiltIn.size()));
@@ -42,14 +48,11 @@ Scene open_scene(const Options& options) {
             throw Error(options.scene, "there is no such built-in scene",
                         "there are " + join(built_in_names()));
         scene = std::move(*built_in);
+        finish_scene(scene, load, options.scene);
     } else {
-        LoadOptions load;
-        load.scale = options.scale;
-        if (!options.up.empty()) load.up = parse_vector("--up", options.up);
         scene = load_scene(options.scene, load);
     }
-    for (const std::string& warning : scene.warnings)
-        std::fprintf(stderr, "chiaro: warning: %s\n", printable(warning).c_str());
+    for (const std::string& warning : scene.warnings) warn(warning);
     return scene;
 }
 
@@ -62,12 +65,11 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     } else {
         camera = frame_from_inside(bounds(scene), scene.up);
     }
-    if (!options.eye.empty()) camera.eye = parse_vector("--eye", options.eye);
-    if (!options.target.empty()) camera.target = parse_vector("--target", options.target);
-    if (!options.up.empty())
-        camera.up = parse_vector("--up", options.up);
-    else if (!options.eye.empty())
+    if (!options.eye.empty()) {
+        camera.eye = parse_place("--eye", options.eye);
         camera.up = scene.up;
+    }
+    if (!options.target.empty()) camera.target = parse_place("--target", options.target);
     if (options.vertical_fov) camera.vertical_fov = *options.vertical_fov;
 
     if (!(camera.vertical_fov > 0 && camera.vertical_fov < 180))
@@ -76,13 +78,13 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     if (!(glm::length(forward) > 0))
         throw Error("--target", "it is where the eye is", "move one of them");
     if (!(glm::length(glm::cross(forward, camera.up)) > 1e-6f * glm::length(forward)))
-        throw Error("--up", "it points along the line of sight", "give another vertical");
+        throw Error("--up", "it points along the line of sight", "give --eye and another vertical");
     return camera;
 }
 
 void add_headlamp_if_dark(Scene& scene, const Camera& camera) {
     if (has_light(scene)) return;
-    std::fprintf(stderr, "chiaro: warning: the scene has no light: a lamp at the eye lights it\n");
+    warn("the scene has no light: a lamp at the eye lights it");
     PunctualLight lamp;
     lamp.name = "headlamp";
     lamp.kind = LightKind::point;

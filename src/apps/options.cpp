@@ -2,6 +2,9 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/random.h"
+#include "import/image_file.h"
+#include "import/text_lines.h"
 
 #include <charconv>
 #include <cmath>
@@ -9,12 +12,9 @@
 namespace chiaro {
 namespace {
 
-constexpr int kLargestSide = 16384;
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 25;  // 8192x4096; about 150 bytes each
-
-// The number that all of `text` is, if it is one.
+// The whole number that all of `text` is, if it is one.
 template <typename T>
-std::optional<T> parse_number(std::string_view text) {
+std::optional<T> parse_whole(std::string_view text) {
     T value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -24,26 +24,26 @@ std::optional<T> parse_number(std::string_view text) {
 }  // namespace
 
 PictureSize parse_size(const std::string& text) {
+    constexpr int kMost = kMaxImageSide;
     const auto x = text.find('x');
     if (x != std::string::npos) {
-        const auto width = parse_number<int>(std::string_view(text).substr(0, x));
-        const auto height = parse_number<int>(std::string_view(text).substr(x + 1));
-        if (width && height && *width > 0 && *height > 0 && *width <= kLargestSide &&
-            *height <= kLargestSide && std::int64_t{*width} * *height <= kMostPixels)
+        const auto width = parse_whole<int>(std::string_view(text).substr(0, x));
+        const auto height = parse_whole<int>(std::string_view(text).substr(x + 1));
+        if (width && height && *width > 0 && *height > 0 && *width <= kMost && *height <= kMost &&
+            std::uint64_t(*width) * *height <= kMaxPicturePixels)
             return {*width, *height};
     }
     throw Error("--size", "'" + text + "' is no picture size",
                 "give width x height of 2^25 pixels at most, as 800x600");
 }
 
-Vec3 parse_vector(const std::string& option, const std::string& text) {
-    Vec3 v(0);
+glm::dvec3 parse_vector(const std::string& option, const std::string& text) {
+    glm::dvec3 v(0);
     std::string_view rest = text;
     for (int i = 0; i < 3; ++i) {
         const auto comma = i < 2 ? rest.find(',') : rest.size();
-        const auto number = comma == std::string_view::npos
-                                ? std::nullopt
-                                : parse_number<float>(rest.substr(0, comma));
+        const auto number =
+            comma == std::string_view::npos ? std::nullopt : parse_number(rest.substr(0, comma));
         if (!number || !std::isfinite(*number))
             throw Error(option, "'" + text + "' is not three numbers", "give x,y,z, as 0,1.6,4");
         v[i] = *number;
@@ -89,13 +89,20 @@ std::uint32_t sample_count(const char* option, std::optional<int> value, std::ui
 int thread_count(const Options& options) {
     if (options.threads < 0 || options.threads > 1024)
         throw Error("--threads", std::to_string(options.threads) + " is no number of threads",
-                    "give 1 to 1024");
+                    "give 1 to 1024, or 0 for all");
     return options.threads > 0 ? options.threads : hardware_threads();
 }
 
-CLI::Validator not_negative() {
+std::uint32_t short_seed(std::uint64_t seed) {
+    const auto low = static_cast<std::uint32_t>(seed);
+    const auto high = static_cast<std::uint32_t>(seed >> 32);
+    return high == 0 ? low : hash32(low, high);
+}
+
+CLI::Validator whole_number() {
     return {[](std::string& text) {
-                return text.starts_with('-') ? "'" + text + "' is negative" : std::string();
+                return parse_whole<std::uint64_t>(text) ? std::string()
+                                                        : "'" + text + "' is no such number";
             },
             ""};
 }
@@ -106,7 +113,7 @@ void add_scene_options(CLI::App& command, Options& o) {
                     "a .gltf, .glb or .obj file, or builtin:room, builtin:cornell")
         ->required();
     command.add_option("--up", o.up, "the vertical of a file that is not y-up, as 0,0,1");
-    command.add_option("--scale", o.scale, "multiplies all lengths of the file");
+    command.add_option("--scale", o.scale, "multiplies all lengths of the scene");
 }
 
 void add_view_options(CLI::App& command, Options& o) {
@@ -124,7 +131,7 @@ void add_render_options(CLI::App& command, Options& o) {
     command.add_option("--threads", o.threads, "threads to use (default: all)");
     command.add_option("--seed", o.seed, "of all random numbers")
         ->capture_default_str()
-        ->check(not_negative());
+        ->check(whole_number());
 }
 
 }  // namespace chiaro

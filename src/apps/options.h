@@ -46,7 +46,7 @@ struct PictureSize {
 /// Readers of single options. Each throws an Error that names the option, what is wrong with the
 /// text, and what would be right.
 PictureSize parse_size(const std::string& text);
-Vec3 parse_vector(const std::string& option, const std::string& text);
+glm::dvec3 parse_vector(const std::string& option, const std::string& text);
 Scheme parse_scheme(const std::string& text);
 Aov parse_aov(const std::string& text);
 void check_renderer(const std::string& text);
@@ -56,8 +56,12 @@ std::uint32_t sample_count(const char* option, std::optional<int> value, std::ui
 /// Threads to use: what was asked for, or all that the machine has.
 int thread_count(const Options& options);
 
-/// Refuses negative numbers, which CLI11 would wrap round to large unsigned ones.
-CLI::Validator not_negative();
+/// The seed as renderers take it; those below 2^32 are themselves.
+std::uint32_t short_seed(std::uint64_t seed);
+
+/// Refuses what is no whole number of 64 bits: CLI11 would take negative numbers round to large
+/// ones, and larger ones down to the largest.
+CLI::Validator whole_number();
 
 void add_scene_options(CLI::App& command, Options& options);
 void add_view_options(CLI::App& command, Options& options);

@@ -2,7 +2,9 @@
 
 #include "base/error.h"
 #include "base/tone_map.h"
+#include "import/fault.h"
 #include "import/image_file.h"
+#include "import/output_file.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -10,8 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace chiaro {
@@ -22,18 +22,14 @@ void check_outputs(const Options& options) {
         throw Error("--exposure", "it must be a finite number of stops");
     check_writable(options.output);
     if (options.statistics.empty()) return;
-    const std::filesystem::path file = options.statistics;
-    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-    if (std::filesystem::is_directory(file) || access(folder.c_str(), W_OK) != 0 ||
-        (std::filesystem::exists(file) && access(file.c_str(), W_OK) != 0))
-        throw Error(options.statistics, "cannot be written", "name a file in a folder of yours");
+    check_replaceable(options.statistics);
+    if (real_path(options.statistics) == real_path(options.output))
+        throw Error("--stats", "'" + options.statistics + "' is the picture too",
+                    "name another file");
 }
 
 void save_picture(const Options& options, const Image& picture) {
-    std::string ending = std::filesystem::path(options.output).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    if (ending == ".exr") {
+    if (lower_extension(options.output) == ".exr") {
         write_exr(options.output, picture);
         return;
     }
@@ -62,20 +58,16 @@ std::string statistics_json(const UpdateCycle& cycle, const RunFigures& figures)
     const double cycles = static_cast<double>(std::max<std::size_t>(s.cycles, 1));
     for (std::size_t i = 0; i < kSteps; ++i)
         j["cycle_ms"][kStepNames[i]] = 1e3 * s.timings.seconds[i] / cycles;
-    j["cycle_ms"]["total"] = 1e3 * s.timings.total() / cycles;
+    j["cycle_ms"]["total"] = 1e3 * s.seconds / cycles;
     return j.dump(2) + "\n";
 }
 
-void save_text(const std::string& file, const std::string& text) {
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    if (!out.flush()) throw Error(file, "cannot be written");
+void complain(const std::string& what) {
+    std::fprintf(stderr, "chiaro: %s\n", printable(what, what.max_size()).c_str());
 }
 
-std::string printable(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    return text;
+void warn(const std::string& what) {
+    complain("warning: " + what);
 }
 
 ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}

@@ -21,11 +21,10 @@ struct RunFigures {
     double first_picture_seconds = 0;
 };
 std::string statistics_json(const UpdateCycle& cycle, const RunFigures& figures);
-void save_text(const std::string& file, const std::string& text);
 
-/// Text of which parts come from files or users, for one line on a terminal: control characters
-/// become question marks.
-std::string printable(std::string text);
+/// A line `chiaro: what` or `chiaro: warning: what` on standard error, whatever is in it.
+void complain(const std::string& what);
+void warn(const std::string& what);
 
 /// A line on a terminal that shows how far the work is; silent where standard error is none.
 class ProgressBar {

@@ -28,7 +28,7 @@ int reference_command(const Options& options) {
     const AreaLights area_lights(scene);
     ReferenceRenderer renderer(make_lit_scene(scene, rays, area_lights),
                                View(camera, size.width, size.height),
-                               {static_cast<std::uint32_t>(options.seed), threads});
+                               {short_seed(options.seed), threads});
 
     catch_interrupts();
     ProgressBar bar;

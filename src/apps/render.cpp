@@ -4,6 +4,7 @@
 #include "apps/open_scene.h"
 #include "apps/output.h"
 #include "base/error.h"
+#include "import/output_file.h"
 #include "sample_renderer/path_renderer.h"
 
 #include <chrono>
@@ -24,6 +25,8 @@ UpdateSettings update_settings(const Options& options) {
     s.direct_samples = sample_count("--direct-samples", options.direct_samples, 100);
     s.indirect_samples = sample_count("--indirect-samples", options.indirect_samples, 400);
     s.fixed_size = options.samples.has_value();
+    if (s.scheme == Scheme::best && (options.direct_samples || options.indirect_samples))
+        warn("--direct-samples and --indirect-samples mean nothing without --scheme paper");
     return s;
 }
 
@@ -88,7 +91,8 @@ int render_command(const Options& options) {
     catch_interrupts();
     const RunFigures figures = run_cycles(cycle, options);
     save_picture(options, cycle.picture());
-    if (!options.statistics.empty()) save_text(options.statistics, statistics_json(cycle, figures));
+    if (!options.statistics.empty())
+        replace_file(options.statistics, statistics_json(cycle, figures));
     return 0;
 }
 

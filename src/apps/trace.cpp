@@ -5,50 +5,99 @@
 #include "apps/open_scene.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "import/directions.h"
+#include "import/load_scene.h"
+#include "import/text_lines.h"
 #include "sample_renderer/path_renderer.h"
 #include "sample_renderer/radiance.h"
 
-#include <charconv>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
+#include <cstring>
 #include <string>
 
 namespace chiaro {
 namespace {
+
+constexpr std::size_t kLinesAtOnce = 1024;
 
 struct Line {
     Vec3 position;
     Vec3 direction;  // unit
 };
 
+// The lines of standard input.
+class InputLines {
+public:
+    // Without its end; nothing where the input ends.
+    std::optional<std::string> next() {
+        ++number_;
+        std::size_t end = bytes_.find('\n', begin_);
+        while (end == bytes_.npos && read_more()) end = bytes_.find('\n', begin_);
+        if (begin_ == bytes_.size()) return std::nullopt;
+        end = std::min(end, bytes_.size());
+        std::string line = bytes_.substr(begin_, end - begin_);
+        begin_ = std::min(end + 1, bytes_.size());
+        return line;
+    }
+
+    // Whether who writes the lines may be waiting for us: nothing more has come.
+    bool idle() const {
+        if (bytes_.find('\n', begin_) != bytes_.npos) return false;
+        pollfd input = {STDIN_FILENO, POLLIN, 0};
+        return ::poll(&input, 1, 0) == 0;
+    }
+
+    std::string where() const { return "stdin:" + std::to_string(number_); }
+
+private:
+    bool read_more() {
+        constexpr std::size_t kBlock = 1 << 16, kLongestLine = 1 << 20;
+        bytes_.erase(0, begin_);
+        begin_ = 0;
+        const std::size_t kept = bytes_.size();
+        if (kept > kLongestLine) throw Error(where(), "a line of more than 1 MiB");
+        bytes_.resize(kept + kBlock);
+        const ssize_t count = ::read(STDIN_FILENO, bytes_.data() + kept, kBlock);
+        bytes_.resize(kept + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+        if (count < 0) throw Error("stdin", "cannot be read: " + std::string(std::strerror(errno)));
+        return count > 0;
+    }
+
+    std::string bytes_;
+    std::size_t begin_ = 0;   // of what has not been given out
+    std::size_t number_ = 0;  // of the last line given out, from 1
+};
+
 // Six finite numbers, the last three no zero vector; nothing for a blank line.
-std::optional<Line> parse_line(const std::string& text, std::size_t number) {
+std::optional<Line> parse_line(std::string_view text, const std::string& where) {
     const auto fault = [&](const char* what) {
-        return Error("stdin:" + std::to_string(number), what,
-                     "give lines of six numbers: x y z and a direction");
+        return Error(where, what, "give lines of six numbers: x y z and a direction");
     };
-    std::array<float, 6> values{};
+    constexpr std::string_view kBlank = " \t\r\v\f";
+    std::array<double, 6> values{};
     std::size_t count = 0;
-    const char* next = text.data();
-    const char* const end = next + text.size();
     for (;;) {
-        while (next != end && (std::isspace(static_cast<unsigned char>(*next)) || *next == '+'))
-            ++next;
-        if (next == end) break;
+        text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size()));
+        if (text.empty()) break;
+        const std::string_view word = text.substr(0, text.find_first_of(kBlank));
+        text.remove_prefix(word.size());
         if (count == values.size()) throw fault("more than six numbers");
-        const auto [after, error] = std::from_chars(next, end, values[count]);
-        if (error != std::errc() || !std::isfinite(values[count])) throw fault("not a number");
-        if (after != end && !std::isspace(static_cast<unsigned char>(*after)))
-            throw fault("not a number");
-        next = after;
-        ++count;
+        const std::optional<double> value = parse_number(word);
+        if (!value || !std::isfinite(*value)) throw fault("not a number");
+        values[count++] = *value;
     }
     if (count == 0) return std::nullopt;
     if (count < values.size()) throw fault("fewer than six numbers");
-    const Vec3 direction(values[3], values[4], values[5]);
-    if (!(glm::length(direction) > 0)) throw fault("a direction of no length");
-    return Line{Vec3(values[0], values[1], values[2]), glm::normalize(direction)};
+    const Line line = {Vec3(values[0], values[1], values[2]),
+                       unit_or_zero({values[3], values[4], values[5]})};
+    if (line.direction == Vec3(0)) throw fault("a direction of no length");
+    if (!within_reach(line.position)) throw fault("a position with coordinates beyond 1e9");
+    return line;
 }
 
 struct Effort {
@@ -66,24 +115,28 @@ Effort effort_of(const Options& options) {
 std::vector<Rgb> measure(const LitScene& lit, const std::vector<Line>& lines, std::size_t first,
                          const Options& options) {
     const auto [direct, indirect, threads] = effort_of(options);
-    std::vector<Rgb> values(lines.size());
+    const std::uint32_t seed = short_seed(options.seed);
     if (!options.irradiance) {
-        std::vector<Ray> rays;
+        // A ray's random numbers are named by its place in a block of lines: rays that are switched
+        // off stand for the lines of the block that are answered already.
+        const std::size_t before = first % kLinesAtOnce;
+        std::vector<Ray> rays(before, {.t_max = -1});
         for (const Line& line : lines)
             rays.push_back({line.position, line.direction, 0, kInfinity});
-        const std::uint32_t seed =
-            hash32(static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(first));
-        radiance(lit, rays, {seed, 0, indirect, threads}, values);
+        std::vector<Rgb> values(rays.size());
+        const std::uint32_t block_seed = hash32(seed, static_cast<std::uint32_t>(first - before));
+        radiance(lit, rays, {block_seed, 0, indirect, threads}, values);
+        values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(before));
         return values;
     }
+    std::vector<Rgb> values(lines.size());
     std::vector<MeterPlace> places;
     std::vector<ShadeRequest> requests(lines.size());
     std::vector<ShadeResult> results(lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
         places.push_back({lines[i].position, lines[i].direction});
         requests[i].light = Light::total;
-        requests[i].seed =
-            hash32(static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(first + i));
+        requests[i].seed = hash32(seed, static_cast<std::uint32_t>(first + i));
         requests[i].samples = direct;
         requests[i].indirect_samples = indirect;
     }
@@ -106,7 +159,6 @@ void print(const std::vector<Rgb>& values, bool lux) {
 }  // namespace
 
 int trace_command(const Options& options) {
-    constexpr std::size_t kLinesAtOnce = 1024;
     check_renderer(options.renderer);
     if (options.lux && !options.irradiance)
         throw Error("--lux", "radiance is not measured in lux", "add -I");
@@ -117,16 +169,17 @@ int trace_command(const Options& options) {
     const LitScene lit = make_lit_scene(scene, rays, area_lights);
 
     std::vector<Line> lines;
-    std::string text;
-    std::size_t number = 0, done = 0;
+    InputLines input;
+    std::size_t done = 0;
     const auto flush = [&] {
         print(measure(lit, lines, done, options), options.lux);
         done += lines.size();
         lines.clear();
     };
-    while (std::getline(std::cin, text)) {
-        if (const auto line = parse_line(text, ++number)) lines.push_back(*line);
-        if (lines.size() == kLinesAtOnce) flush();
+    while (const auto text = input.next()) {
+        if (const auto line = parse_line(*text, input.where())) lines.push_back(*line);
+        const bool full = (done + lines.size()) % kLinesAtOnce == 0;
+        if (!lines.empty() && (full || input.idle())) flush();
     }
     if (!lines.empty()) flush();
     return 0;

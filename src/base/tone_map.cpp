@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace chiaro {
 namespace {
@@ -50,11 +51,15 @@ float comparison_exposure(const Image& image) {
 }
 
 Image tone_mapped(const Image& linear, float exposure) {
+    // White long before; beyond it the curve's squares would overflow, and black times infinity is
+    // no number.
+    constexpr float kWhite = 1e9f;
+    exposure = std::min(exposure, std::numeric_limits<float>::max());
     Image result = linear;
     for (Rgb& pixel : result.pixels) {
         // Compressing the largest channel and scaling the others with it keeps the hue; what is far
         // over white goes to white, as a film's layers saturate.
-        const Rgb exposed = glm::max(pixel * exposure, Rgb(0));
+        const Rgb exposed = glm::clamp(pixel * exposure, 0.0f, kWhite);
         const float peak = max_component(exposed);
         if (!(peak > 0)) {
             pixel = Rgb(0);

@@ -3,6 +3,8 @@
 
 #include "import/ear_clip.h"
 
+#include "import/directions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,15 +20,6 @@ constexpr std::uint32_t kNone = Primitive::kNoCorner;
 // Twice the signed area of a triangle: positive if counter-clockwise.
 double cross_area(Point a, Point b, Point c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-// Twice the vector area of the polygon (Newell's method): it exists for one that is not flat too.
-glm::dvec3 vector_area(std::span<const Vec3> corners) {
-    glm::dvec3 sum(0);
-    const glm::dvec3 origin(corners[0]);
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-        sum += glm::cross(glm::dvec3(corners[i]) - origin, glm::dvec3(corners[i + 1]) - origin);
-    return sum;
 }
 
 // The polygon seen against `normal`, so that it runs counter-clockwise: along the axis that it

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <memory>
 #include <system_error>
 
 namespace chiaro {
 namespace {
-
-constexpr std::size_t kLongestText = 160;  // characters of a file's text in a message
 
 // Bytes of the well-formed UTF-8 character at the start of `text`; 0 if there is none.
 std::size_t utf8_length(std::string_view text) {
@@ -37,10 +37,10 @@ bool is_control(std::string_view character) {
 
 }  // namespace
 
-std::string printable(std::string_view text) {
+std::string printable(std::string_view text, std::size_t most) {
     std::string line;
     while (!text.empty()) {
-        if (line.size() > kLongestText) return line + "...";
+        if (line.size() > most) return line + "...";
         const std::size_t length = utf8_length(text);
         const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
         text.remove_prefix(character.size());
@@ -53,6 +53,13 @@ std::string printable(std::string_view text) {
                 line += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
     }
     return line;
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
 }
 
 std::string read_whole_file(const std::filesystem::path& file, const std::string& where) {
@@ -77,6 +84,13 @@ std::string read_whole_file(const std::filesystem::path& file, const std::string
     return bytes;
 }
 
+std::filesystem::path real_path(const std::filesystem::path& file) {
+    std::error_code failure;
+    const auto whole = std::filesystem::absolute(file, failure);
+    const auto real = std::filesystem::weakly_canonical(whole, failure);
+    return failure ? whole.lexically_normal() : real;
+}
+
 std::filesystem::path resolve_beside(const std::filesystem::path& folder, std::string_view relative,
                                      const std::string& where) {
     const std::string shown = printable(relative);
@@ -88,7 +102,8 @@ std::filesystem::path resolve_beside(const std::filesystem::path& folder, std::s
     const auto path = std::filesystem::path(relative).lexically_normal();
     if (path.is_absolute() || drive)
         throw Error(where, fmt::format("\"{}\" is an absolute path", shown), remedy);
-    if (!path.empty() && *path.begin() == "..")
+    const std::filesystem::path real = real_path(folder / path), top = real_path(folder / ".");
+    if (std::ranges::mismatch(top, real).in1 != top.end())
         throw Error(where, fmt::format("\"{}\" leads out of the scene's folder", shown), remedy);
     return folder / path;
 }

@@ -1,6 +1,7 @@
 #include "import/finish_scene.h"
 
 #include "base/error.h"
+#include "import/directions.h"
 #include "import/fault.h"
 
 #include <fmt/format.h>
@@ -14,8 +15,15 @@
 namespace chiaro {
 namespace {
 
-// Beyond this the square of a distance is no float any more.
-constexpr float kFarthest = 1e18f;
+// Rays start this much above a surface, at least (RayCaster::offset): a thousandth of such a scene.
+constexpr float kSmallest = 1e-3f;
+
+void check_options(const LoadOptions& options) {
+    if (options.up && unit_or_zero(*options.up) == Vec3(0))
+        throw Error("--up", "the vertical axis has no direction", "give one like 0,0,1");
+    if (!(options.scale > 0 && options.scale <= 1e18f))
+        throw Error("--scale", "the scale is not a number above 0", "give one up to 1e18");
+}
 
 void scale_lengths(Scene& scene, float scale) {
     if (scale == 1.0f) return;
@@ -39,10 +47,14 @@ void order_all_primitives(Scene& scene, const std::string& where) {
             fmt::format("{}: {} polygons without area were left out", where, dropped));
 }
 
+// Whether the object is flattened so much that the way back throws rays from within kFarthest to
+// where Embree takes none.
 bool singular(const Mat4& to_world) {
-    const double determinant = glm::determinant(glm::dmat3(to_world));
-    // As a float too, since that is what normals are transformed with.
-    return determinant == 0 || static_cast<float>(determinant) == 0;
+    constexpr double kMost = 1e8;
+    const glm::dmat3 back = glm::inverse(glm::dmat3(to_world));
+    for (int i = 0; i < 3; ++i)
+        if (!(glm::all(glm::lessThanEqual(glm::abs(back[i]), glm::dvec3(kMost))))) return true;
+    return false;
 }
 
 // Takes out objects that show nothing, so that everything in `objects` has a surface.
@@ -72,32 +84,65 @@ void drop_unused_meshes(Scene& scene) {
     scene.meshes = std::move(kept);
 }
 
-void check_extent(const Scene& scene, const std::string& where) {
-    const auto inside = [](Vec3 p) {
-        return is_finite(p) && std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest;
+void check_extent(Scene& scene, const std::string& where) {
+    const auto check_inside = [&](const char* kind, const std::string& name, Vec3 p) {
+        if (!within_reach(p))
+            throw Error(where,
+                        fmt::format("{} \"{}\" has coordinates beyond 1e9", kind, printable(name)),
+                        "scale the scene down, as by --scale 0.001");
     };
-    const auto refuse = [&](const char* kind, const std::string& name) {
-        throw Error(where, fmt::format("{} \"{}\" is more than 1e18 from the origin", kind,
-                                       printable(name)));
-    };
-    for (const Object& object : scene.objects)
-        for (const Vec3 p : scene.mesh_of(object).positions)
-            if (!inside(Vec3(object.to_world * Vec4(p, 1)))) refuse("object", object.name);
+    for (const Object& object : scene.objects) {
+        for (int i = 0; i < 3; ++i) check_inside("object", object.name, Vec3(object.to_world[i]));
+        for (const Vec3 p : scene.mesh_of(object).positions) {
+            check_inside("object", object.name, p);
+            check_inside("object", object.name, Vec3(object.to_world * Vec4(p, 1)));
+        }
+    }
     for (const PunctualLight& light : scene.lights)
-        if (!inside(light.position)) refuse("light", light.name);
+        check_inside("light", light.name, light.position);
     for (const Camera& camera : scene.cameras)
-        if (!inside(camera.eye) || !inside(camera.target)) refuse("camera", camera.name);
+        for (const Vec3 p : {camera.eye, camera.target}) check_inside("camera", camera.name, p);
+
+    const Box box = bounds(scene);
+    if (!box.empty() && box.diagonal() < kSmallest)
+        scene.warnings.push_back(fmt::format(
+            "{}: the scene is only {:g} across: light is wrong below 0.001; use --scale", where,
+            box.diagonal()));
+}
+
+void check_brightness(const Scene& scene, const std::string& where) {
+    for (const Material& material : scene.materials)
+        if (!(max_component(material.emission) <= kBrightest))
+            throw Error(where, fmt::format("material \"{}\" emits more than 1e15 cd/m2",
+                                           printable(material.name)));
+    for (const PunctualLight& light : scene.lights)
+        if (!(max_component(light.intensity) <= kBrightest))
+            throw Error(where,
+                        fmt::format("light \"{}\" is brighter than 1e15 {}", printable(light.name),
+                                    light.kind == LightKind::directional ? "lux" : "cd"));
 }
 
 }  // namespace
 
-void finish_scene(Scene& scene, const LoadOptions& options, const std::string& where) {
-    if (options.up) scene.up = glm::normalize(*options.up);
-    scale_lengths(scene, options.scale);
+std::vector<bool> drop_unseen(Scene& scene, const std::string& where) {
     order_all_primitives(scene, where);
     drop_empty_objects(scene, where);
     drop_unused_meshes(scene);
+    std::vector<bool> in_use(scene.materials.size(), false);
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& primitive : mesh.primitives)
+            in_use[index_of(primitive.material)] = true;
+    return in_use;
+}
+
+void finish_scene(Scene& scene, const LoadOptions& options, const std::string& where) {
+    check_options(options);
+    if (options.up) scene.up = unit_or_zero(*options.up);
+    scale_lengths(scene, options.scale);
+    drop_empty_objects(scene, where);
+    drop_unused_meshes(scene);
     check_extent(scene, where);
+    check_brightness(scene, where);
     check_scene(scene);
 }
 

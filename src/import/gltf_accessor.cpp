@@ -159,26 +159,34 @@ void for_each_number(const GltfDocument& document, int index, const Set& set) {
     const std::uint8_t* values =
         document.view_bytes(sparse.values.bufferView).data() + sparse.values.byteOffset;
     const std::uint64_t place_bytes = component_bytes(sparse.indices.componentType);
+    double last = -1;
     for_each_number(
         accessor, values, element_bytes(accessor), static_cast<std::uint64_t>(sparse.count),
         [&](std::uint64_t i, std::size_t component, double value) {
             const double place =
                 load_component(places + i * place_bytes, sparse.indices.componentType);
-            if (place >= static_cast<double>(accessor.count))
+            const auto refuse = [&](const char* what) {
                 throw Error(document.where(fmt::format("accessors[{}].sparse.indices", index)),
-                            fmt::format("element {} is not there", place));
+                            fmt::format("element {} {}", place, what));
+            };
+            if (place >= static_cast<double>(accessor.count)) refuse("is not there");
+            if (component == 0 && place <= last) refuse("does not come after the one before it");
+            last = place;
             set(static_cast<std::uint64_t>(place), component, value);
         });
 }
 
-void check_bounds(const GltfDocument& document, int index) {
+// `budget` is how many numbers may still be looked at: many accessors may name the same bytes.
+void check_bounds(const GltfDocument& document, int index, std::uint64_t& budget) {
     const Accessor& accessor = accessor_at(document, index);
     const std::size_t components = component_count(accessor);
     const bool has_bounds =
         accessor.minValues.size() == components && accessor.maxValues.size() == components;
     if (!has_bounds || accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT ||
-        accessor.type == TINYGLTF_TYPE_MAT2 || accessor.type == TINYGLTF_TYPE_MAT3)
+        accessor.type == TINYGLTF_TYPE_MAT2 || accessor.type == TINYGLTF_TYPE_MAT3 ||
+        accessor.count * components > budget)
         return;
+    budget -= accessor.count * components;
     for_each_number(document, index, [&](std::uint64_t i, std::size_t c, double value) {
         if (value < accessor.minValues[c] || value > accessor.maxValues[c])
             throw Error(document.where(fmt::format("accessors[{}]", index)),
@@ -202,7 +210,7 @@ void check_buffer_views(const GltfDocument& document) {
 
 void check_accessors(const GltfDocument& document) {
     const std::vector<Accessor>& accessors = document.model().accessors;
-    std::uint64_t zeros = 0;
+    std::uint64_t zeros = 0, budget = kMostCheckedNumbers;
     for (std::size_t i = 0; i < accessors.size(); ++i) {
         if (!document.accessor_known(i)) continue;
         const Accessor& accessor = accessors[i];
@@ -214,7 +222,7 @@ void check_accessors(const GltfDocument& document) {
                 throw Error(where, "there are too many elements without data");
         }
         if (accessor.sparse.isSparse) check_sparse(document, accessor, where);
-        check_bounds(document, static_cast<int>(i));
+        check_bounds(document, static_cast<int>(i), budget);
     }
 }
 

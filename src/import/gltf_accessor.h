@@ -10,14 +10,16 @@ namespace chiaro {
 
 /// The most elements, in one document, of accessors that have no data and so are zeros.
 inline constexpr std::uint64_t kMaxZeroElements = 1 << 20;
+/// How many numbers of a document are held against the bounds of their accessors.
+inline constexpr std::uint64_t kMostCheckedNumbers = 1 << 28;
 
 /// Throws an Error at the first buffer view that reaches beyond its buffer.
 void check_buffer_views(const GltfDocument& document);
 
 /// Throws an Error at the first accessor that reaches beyond its buffer view, is not aligned to its
 /// components, has more zeros than kMaxZeroElements or whose integers are not within the min and
-/// max that it declares. (Floats are rounded when they are written as text: their bounds are not
-/// held against them.)
+/// max that it declares, as far as kMostCheckedNumbers goes. (Floats are rounded when they are
+/// written as text: their bounds are not held against them.)
 void check_accessors(const GltfDocument& document);
 
 /// Numbers in one element: 1 for a scalar, 3 for a VEC3, 16 for a MAT4.

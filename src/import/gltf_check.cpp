@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace chiaro {
@@ -17,6 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr double kEighthTurn = 0.7853981633974483;  // KHR_lights_punctual's outerConeAngle
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 constexpr std::array kSupported = {
@@ -116,12 +118,17 @@ void check_version(const Json& asset, const std::string& file) {
 
 void check_required_extensions(const Json& root, const std::string& file) {
     if (!root.contains("extensionsRequired")) return;
+    const Json listed = root.value("extensionsUsed", Json::array());
+    const std::set<Json> used(listed.begin(), listed.end());
     for (const Json& extension : root["extensionsRequired"]) {
         const auto name = extension.get<std::string>();
         if (!is_supported_extension(name))
             throw Error(file + ": extensionsRequired",
                         fmt::format("the extension {} is not supported", printable(name)),
                         "export the scene without it");
+        if (!used.contains(extension))
+            throw Error(file + ": extensionsRequired",
+                        fmt::format("{} is not in extensionsUsed", name));
     }
 }
 
@@ -180,16 +187,27 @@ void check_alternatives(const Json& root, const std::string& file) {
             root["bufferViews"][image->at("bufferView").get<std::size_t>()].contains("byteStride"))
             refuse(file, place, "its bufferView has a byteStride");
     });
+    visit_json(root, "nodes/*", file, [&](const Json* node, const JsonPlace& place) {
+        for (const char* part : {"translation", "rotation", "scale"})
+            if (node->contains("matrix") && node->contains(part))
+                refuse(file, place, fmt::format("has a matrix and a {}", part));
+    });
     visit_json(root, "cameras/*", file, [&](const Json* camera, const JsonPlace& place) {
         const auto type = camera->at("type").get<std::string>();
         if ((type == "perspective" || type == "orthographic") && !camera->contains(type))
             refuse(file, place, type + " is missing");
     });
-    visit_json(root, "extensions/KHR_lights_punctual/lights/*", file,
-               [&](const Json* light, const JsonPlace& place) {
-                   if (light != nullptr && light->at("type") == "spot" && !light->contains("spot"))
-                       refuse(file, place, "spot is missing");
-               });
+    visit_json(
+        root, "extensions/KHR_lights_punctual/lights/*", file,
+        [&](const Json* light, const JsonPlace& place) {
+            if (light->at("type") != "spot") return;
+            if (!light->contains("spot")) refuse(file, place, "spot is missing");
+            // Equal angles, which the extension forbids too, are what Blender writes for an
+            // edge without a blend.
+            const Json& spot = light->at("spot");
+            if (spot.value("innerConeAngle", 0.0) > spot.value("outerConeAngle", kEighthTurn))
+                refuse(file, place, "innerConeAngle is beyond outerConeAngle");
+        });
     visit_json(root, "animations/*", file, [&](const Json* animation, const JsonPlace& place) {
         const std::size_t count = animation->at("samplers").size();
         for (const Json& channel : animation->at("channels"))
@@ -215,6 +233,11 @@ void check_forest(const Json& root, const std::string& file) {
         }
     visit_json(root, "scenes/*/nodes/*", file, [&](const Json* node, const JsonPlace& place) {
         if (has_parent[node->get<std::size_t>()]) refuse(file, place, "is not a root node");
+    });
+    visit_json(root, "scenes/*/nodes", file, [&](const Json* list, const JsonPlace& place) {
+        if (list == nullptr) return;
+        const std::set<Json> different(list->begin(), list->end());
+        if (different.size() < list->size()) refuse(file, place, "names a node twice");
     });
 
     std::vector<bool> reached(nodes.size(), false);

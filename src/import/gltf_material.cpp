@@ -67,26 +67,33 @@ AlphaMode alpha_mode(const std::string& mode, const std::string& where) {
 }  // namespace
 
 MaterialId GltfMaterials::get(int index) {
-    const auto found = known_.find(index);
-    if (found != known_.end()) return found->second;
-    Material material;
-    if (index < 0) {
-        material = make(tinygltf::Material(), document_.where("materials"));
-        material.name = unique_name_("default", "material");
-    } else {
-        const tinygltf::Material& source =
-            document_.model().materials[static_cast<std::size_t>(index)];
-        material = make(source, document_.where(fmt::format("materials[{}]", index)));
-        material.name = unique_name_(source.name, "material");
-    }
     const auto id = static_cast<MaterialId>(scene_.materials.size());
-    scene_.materials.push_back(std::move(material));
-    known_.emplace(index, id);
-    return id;
+    const auto [known, fresh] = known_.try_emplace(index, id);
+    if (fresh)
+        scene_.materials.emplace_back().name =
+            index < 0 ? unique_name_("default", "material")
+                      : unique_name_(document_.model().materials[index].name, "material");
+    return known->second;
 }
 
-Material GltfMaterials::make(const tinygltf::Material& source, const std::string& place) {
-    Material material;
+void GltfMaterials::read(const std::vector<bool>& in_use) {
+    for (const auto& [index, id] : known_) {
+        if (!in_use[index_of(id)]) continue;
+        Material& material = scene_.materials[index_of(id)];
+        if (index < 0)
+            read(tinygltf::Material(), document_.where("materials"), material);
+        else
+            read(document_.model().materials[index],
+                 document_.where(fmt::format("materials[{}]", index)), material);
+    }
+    if (!normal_map_.empty())
+        scene_.warnings.push_back(normal_map_ +
+                                  ": normal maps are not supported and were left out");
+    warn_of_unused_images();
+}
+
+void GltfMaterials::read(const tinygltf::Material& source, const std::string& place,
+                         Material& material) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     material.base_color = glm::clamp(to_rgb(pbr.baseColorFactor), 0.0f, 1.0f);
     material.alpha = std::clamp(static_cast<float>(pbr.baseColorFactor[3]), 0.0f, 1.0f);
@@ -98,7 +105,8 @@ Material GltfMaterials::make(const tinygltf::Material& source, const std::string
     material.emits_backward = source.doubleSided;
     read_emission(source, place, material);
     read_gloss(source, place, material);
-    return material;
+    if (source.normalTexture.index >= 0 && normal_map_.empty())
+        normal_map_ = place + ".normalTexture";
 }
 
 void GltfMaterials::read_emission(const tinygltf::Material& source, const std::string& place,
@@ -106,9 +114,7 @@ void GltfMaterials::read_emission(const tinygltf::Material& source, const std::s
     const float strength =
         number(source.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1);
     const Rgb factor = source.emissiveFactor.empty() ? Rgb(0) : to_rgb(source.emissiveFactor);
-    material.emission = strength * glm::max(factor, Rgb(0));
-    if (!is_finite(material.emission))
-        throw Error(place, "its emission is not a number that a float holds");
+    material.emission = strength * factor;
     if (material.emissive())
         material.emission_texture = use(source.emissiveTexture, true, place + ".emissiveTexture");
 }

@@ -17,25 +17,28 @@ public:
     GltfMaterials(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
 
     /// The scene's material for the document's `index`; -1: glTF's default (white, single-sided).
-    /// Throws an Error if a texture of it is absent or broken.
+    /// It has a name only, until read() fills it.
     MaterialId get(int index);
 
-    /// Warns of images that are absent and that no material in the scene needed.
-    void warn_of_unused_images();
+    /// Reads those materials of the scene that are `in_use`, by id. Throws an Error if a texture of
+    /// one is absent or broken; warns of absent images that none needs.
+    void read(const std::vector<bool>& in_use);
 
 private:
-    Material make(const tinygltf::Material& source, const std::string& place);
+    void read(const tinygltf::Material& source, const std::string& place, Material& material);
     void read_emission(const tinygltf::Material& source, const std::string& place,
                        Material& material);
     void read_gloss(const tinygltf::Material& source, const std::string& place, Material& material);
     TextureUse use(const tinygltf::TextureInfo& info, bool srgb, const std::string& place);
     TextureId texture(int index, bool srgb);
+    void warn_of_unused_images();
 
     GltfDocument& document_;
     Scene& scene_;
     UniqueNames unique_name_;
     std::map<int, MaterialId> known_;
     std::map<std::tuple<int, int, bool>, TextureId> textures_;  // by image, sampler and srgb
+    std::string normal_map_;                                    // the first place of one
 };
 
 }  // namespace chiaro

@@ -1,6 +1,7 @@
 #include "import/gltf_mesh.h"
 
 #include "base/error.h"
+#include "import/directions.h"
 #include "import/fault.h"
 #include "import/gltf_accessor.h"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 namespace chiaro {
@@ -92,12 +92,6 @@ std::uint32_t restart_value(const Accessor& accessor) {
     return accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 0xff
            : accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 0xffff
                                                                               : 0xffff'ffff;
-}
-
-Vec3 unit_or_zero(Vec3 v) {
-    const glm::dvec3 exact(v);
-    const double length = glm::length(exact);
-    return length > 0 ? Vec3(exact / length) : Vec3(0);
 }
 
 class MeshReader {
@@ -221,10 +215,9 @@ private:
     void give_normals(std::array<std::uint32_t, 3>& corners) {
         const auto& p = mesh_.positions;
         const auto face_normal = [&] {
-            const glm::dvec3 a(p[corners[0]]);
-            const Vec3 n = unit_or_zero(Vec3(glm::normalize(
-                glm::cross(glm::dvec3(p[corners[1]]) - a, glm::dvec3(p[corners[2]]) - a))));
-            return is_finite(n) && n != Vec3(0) ? n : Vec3(0, 0, 1);
+            const std::array triangle = {p[corners[0]], p[corners[1]], p[corners[2]]};
+            const Vec3 n = unit_or_zero(vector_area(triangle));
+            return n == Vec3(0) ? Vec3(0, 0, 1) : n;
         };
         for (std::uint32_t& corner : corners) {
             if (mesh_.normals[corner] != Vec3(0)) continue;

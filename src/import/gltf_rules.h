@@ -19,6 +19,7 @@ struct GltfRule {
 
 inline constexpr double kMostBytes = 9007199254740991.0;  // 2^53 - 1: exact in every JSON reader
 inline constexpr double kMostInt = 2147483647.0;
+inline constexpr double kRightAngle = 1.570797;  // pi/2, rounded up as a float may be
 
 // clang-format off
 inline constexpr GltfRule kGltfRules[] = {
@@ -110,6 +111,7 @@ inline constexpr GltfRule kGltfRules[] = {
     {"materials/*/name", JsonKind::string},
     {"materials/*/pbrMetallicRoughness", JsonKind::object},
     {"materials/*/pbrMetallicRoughness/baseColorFactor", JsonKind::numbers, false, 0, 4},
+    {"materials/*/pbrMetallicRoughness/baseColorFactor/*", JsonKind::number, true, 0, 1},
     {"materials/*/pbrMetallicRoughness/metallicFactor", JsonKind::number, false, 0, 1},
     {"materials/*/pbrMetallicRoughness/roughnessFactor", JsonKind::number, false, 0, 1},
     {"materials/*/pbrMetallicRoughness/baseColorTexture", JsonKind::object},
@@ -136,6 +138,7 @@ inline constexpr GltfRule kGltfRules[] = {
     {"materials/*/emissiveTexture/extensions/KHR_texture_transform/rotation", JsonKind::number},
     {"materials/*/emissiveTexture/extensions/KHR_texture_transform/texCoord", JsonKind::integer, false, 0, kMostInt},
     {"materials/*/emissiveFactor", JsonKind::numbers, false, 0, 3},
+    {"materials/*/emissiveFactor/*", JsonKind::number, true, 0, 1},
     {"materials/*/alphaMode", JsonKind::string},
     {"materials/*/alphaCutoff", JsonKind::number, false, 0},
     {"materials/*/doubleSided", JsonKind::boolean},
@@ -147,6 +150,7 @@ inline constexpr GltfRule kGltfRules[] = {
     {"materials/*/extensions/KHR_materials_specular", JsonKind::object},
     {"materials/*/extensions/KHR_materials_specular/specularFactor", JsonKind::number, false, 0, 1},
     {"materials/*/extensions/KHR_materials_specular/specularColorFactor", JsonKind::numbers, false, 0, 3},
+    {"materials/*/extensions/KHR_materials_specular/specularColorFactor/*", JsonKind::number, true, 0},
     {"materials/*/extensions/KHR_materials_transmission", JsonKind::object},
     {"materials/*/extensions/KHR_materials_transmission/transmissionFactor", JsonKind::number, false, 0, 1},
 
@@ -187,11 +191,12 @@ inline constexpr GltfRule kGltfRules[] = {
     {"extensions/KHR_lights_punctual/lights/*/name", JsonKind::string},
     {"extensions/KHR_lights_punctual/lights/*/type", JsonKind::string, true},
     {"extensions/KHR_lights_punctual/lights/*/color", JsonKind::numbers, false, 0, 3},
+    {"extensions/KHR_lights_punctual/lights/*/color/*", JsonKind::number, true, 0, 1},
     {"extensions/KHR_lights_punctual/lights/*/intensity", JsonKind::number, false, 0},
     {"extensions/KHR_lights_punctual/lights/*/range", JsonKind::number, false, 0},
     {"extensions/KHR_lights_punctual/lights/*/spot", JsonKind::object},
-    {"extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", JsonKind::number, false, 0},
-    {"extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", JsonKind::number, false, 0},
+    {"extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", JsonKind::number, false, 0, kRightAngle},
+    {"extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", JsonKind::number, false, 0, kRightAngle},
 };
 // clang-format on
 

@@ -6,8 +6,9 @@
 
 namespace chiaro {
 
-/// Throws an Error at `where` unless a picture of this size and `bytes_per_pixel` may be decoded.
-void check_image_size(std::uint64_t width, std::uint64_t height, std::uint64_t bytes_per_pixel,
+/// Throws an Error at `where` unless a picture of this size and of at most `most_pixels` may be
+/// decoded.
+void check_image_size(std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels,
                       const std::string& where);
 
 bool is_png(std::span<const std::uint8_t> bytes);
@@ -20,6 +21,6 @@ Texture decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& wher
 
 bool is_exr(std::span<const std::uint8_t> bytes);
 Image decode_exr(const std::string& bytes, const std::string& where);
-std::string encode_exr(const Image& image, ExrDepth depth, const std::string& where);
+std::string encode_exr(const Image& image, const std::string& where);
 
 }  // namespace chiaro

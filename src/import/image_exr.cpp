@@ -16,6 +16,8 @@
 namespace chiaro {
 namespace {
 
+constexpr std::array kChannels = {"R", "G", "B"};
+
 // A file in memory, as OpenEXR reads it.
 class MemoryInput : public Imf::IStream {
 public:
@@ -61,7 +63,7 @@ Image read_pixels(Imf::InputFile& file, const std::string& where) {
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     if (width <= 0 || height <= 0) throw Error(where, "the picture has no pixels");
     check_image_size(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
-                     sizeof(Rgb), where);
+                     kMaxPicturePixels, where);
 
     const Imf::ChannelList& channels = file.header().channels();
     const bool colored = channels.findChannel("R") != nullptr;
@@ -75,9 +77,8 @@ Image read_pixels(Imf::InputFile& file, const std::string& where) {
 
     Image image(static_cast<int>(width), static_cast<int>(height));
     Imf::FrameBuffer frame;
-    const std::array<const char*, 3> names = {"R", "G", "B"};
     for (std::size_t i = 0; i < (colored ? 3u : 1u); ++i)
-        frame.insert(colored ? names[i] : "Y",
+        frame.insert(colored ? kChannels[i] : "Y",
                      Imf::Slice::Make(Imf::FLOAT, &image.pixels[0][static_cast<int>(i)], window,
                                       sizeof(Rgb), sizeof(Rgb) * image.width));
     file.setFrameBuffer(frame);
@@ -85,19 +86,6 @@ Image read_pixels(Imf::InputFile& file, const std::string& where) {
     if (!colored)
         for (Rgb& pixel : image.pixels) pixel = Rgb(pixel.r);
     return image;
-}
-
-// Interleaved channels of one picture, in the depth of the file.
-template <typename Sample>
-void write_samples(Imf::OutputFile& file, Imf::PixelType type, std::vector<Sample>& samples,
-                   const Image& image) {
-    Imf::FrameBuffer frame;
-    const std::array<const char*, 3> names = {"R", "G", "B"};
-    for (std::size_t i = 0; i < 3; ++i)
-        frame.insert(names[i], Imf::Slice(type, reinterpret_cast<char*>(samples.data() + i),
-                                          3 * sizeof(Sample), 3 * sizeof(Sample) * image.width));
-    file.setFrameBuffer(frame);
-    file.writePixels(image.height);
 }
 
 }  // namespace
@@ -121,29 +109,24 @@ Image decode_exr(const std::string& bytes, const std::string& where) {
     }
 }
 
-std::string encode_exr(const Image& image, ExrDepth depth, const std::string& where) {
+std::string encode_exr(const Image& image, const std::string& where) {
     try {
-        const Imf::PixelType type = depth == ExrDepth::half ? Imf::HALF : Imf::FLOAT;
         Imf::Header header(image.width, image.height);
         header.compression() = Imf::ZIP_COMPRESSION;
-        for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(type));
-
+        // Frame buffers serve reading too, so they take no const.
+        Imf::FrameBuffer frame;
+        char* const samples = reinterpret_cast<char*>(const_cast<Rgb*>(image.pixels.data()));
+        for (std::size_t i = 0; i < 3; ++i) {
+            const char* const name = kChannels[i];
+            header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+            frame.insert(name, Imf::Slice(Imf::FLOAT, samples + i * sizeof(float), sizeof(Rgb),
+                                          sizeof(Rgb) * image.width));
+        }
         MemoryOutput output;
         {
             Imf::OutputFile file(output, header, 0);
-            std::vector<float> samples;
-            samples.reserve(3 * image.pixels.size());
-            for (const Rgb& pixel : image.pixels)
-                for (int i = 0; i < 3; ++i) samples.push_back(pixel[i]);
-            if (depth == ExrDepth::full) {
-                write_samples(file, type, samples, image);
-            } else {
-                std::vector<Imath::half> halves(samples.size());
-                std::ranges::transform(samples, halves.begin(), [](float s) {
-                    return Imath::half(std::clamp(s, -65504.0f, 65504.0f));
-                });
-                write_samples(file, type, halves, image);
-            }
+            file.setFrameBuffer(frame);
+            file.writePixels(image.height);
         }
         return std::move(output.bytes);
     } catch (const std::exception& fault) {

@@ -6,9 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
 namespace chiaro {
 namespace {
 
@@ -18,14 +15,13 @@ std::span<const std::uint8_t> as_bytes(const std::string& text) {
 
 }  // namespace
 
-void check_image_size(std::uint64_t width, std::uint64_t height, std::uint64_t bytes_per_pixel,
+void check_image_size(std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels,
                       const std::string& where) {
     if (width == 0 || height == 0) throw Error(where, "the picture has no pixels");
-    if (width > kMaxImageSide || height > kMaxImageSide ||
-        width * height > kMaxImageBytes / bytes_per_pixel)
-        throw Error(where, fmt::format("a picture of {} x {} pixels is too large", width, height),
-                    fmt::format("at most {} a side and {} MiB decoded are read", kMaxImageSide,
-                                kMaxImageBytes >> 20));
+    if (width > kMaxImageSide || height > kMaxImageSide || width * height > most_pixels)
+        throw Error(
+            where, fmt::format("a picture of {} x {} pixels is too large", width, height),
+            fmt::format("at most {} a side and {} in all are read", kMaxImageSide, most_pixels));
 }
 
 Texture read_texture(std::span<const std::uint8_t> bytes, const std::string& where) {
@@ -44,8 +40,8 @@ Image read_image(const std::filesystem::path& file) {
     throw Error(where, "the picture is neither OpenEXR nor PNG");
 }
 
-void write_exr(const std::filesystem::path& file, const Image& image, ExrDepth depth) {
-    replace_file(file, encode_exr(image, depth, printable(file.string())));
+void write_exr(const std::filesystem::path& file, const Image& image) {
+    replace_file(file, encode_exr(image, printable(file.string())));
 }
 
 void write_png(const std::filesystem::path& file, const Image& image) {
@@ -53,9 +49,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
 }
 
 void check_writable(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(file);
     if (extension != ".png" && extension != ".exr")
         throw Error(printable(file.string()), "is neither a .png nor an .exr file",
                     "give the picture one of these endings");

@@ -13,8 +13,9 @@ namespace chiaro {
 
 /// The largest width or height of a picture that is read [pixels].
 inline constexpr std::uint32_t kMaxImageSide = 16384;
-/// The largest picture that is read [bytes when decoded].
-inline constexpr std::uint64_t kMaxImageBytes = std::uint64_t{1} << 28;
+/// The most pixels of a picture and of a texture.
+inline constexpr std::uint64_t kMaxPicturePixels = std::uint64_t{1} << 25;
+inline constexpr std::uint64_t kMaxTexturePixels = std::uint64_t{1} << 26;
 
 /// The texels of a PNG or JPEG file's bytes, told apart by how they begin, not by a name. 16-bit
 /// channels are cut to 8, grey is spread to RGB; name, sampling and `srgb` are left to the caller.
@@ -25,13 +26,9 @@ Texture read_texture(std::span<const std::uint8_t> bytes, const std::string& whe
 /// ignored) as linear RGB.
 Image read_image(const std::filesystem::path& file);
 
-/// Bits a channel in an OpenEXR file.
-enum class ExrDepth { half, full };
-
-/// Writes linear RGB as an OpenEXR file of channels R, G and B, ZIP-compressed. In half depth
-/// values beyond 65504 become 65504. An existing file is replaced only when all is written.
-void write_exr(const std::filesystem::path& file, const Image& image,
-               ExrDepth depth = ExrDepth::full);
+/// Writes linear RGB as an OpenEXR file of channels R, G and B in floats, ZIP-compressed. An
+/// existing file is replaced only when all is written.
+void write_exr(const std::filesystem::path& file, const Image& image);
 
 /// Writes values that are already encoded for display, clamped to [0, 1], as an 8-bit RGB file
 /// marked as sRGB. An existing file is replaced only when all is written.

@@ -116,7 +116,7 @@ Texture decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& wher
     if (!read_header(decoder, bytes)) refuse();
     const std::size_t width = decoder.info.image_width;
     const std::size_t height = decoder.info.image_height;
-    check_image_size(width, height, 4, where);
+    check_image_size(width, height, kMaxTexturePixels, where);
     const std::size_t channels = decoder.info.out_color_space == JCS_CMYK        ? 4
                                  : decoder.info.out_color_space == JCS_GRAYSCALE ? 1
                                                                                  : 3;

@@ -25,15 +25,15 @@ struct PngSize {
     std::uint32_t width, height;
 };
 
-// Opens `bytes` for decoding to `bytes_per_pixel`, and refuses what would be too large.
-PngSize open_png(spng_ctx* context, std::span<const std::uint8_t> bytes,
-                 std::uint64_t bytes_per_pixel, const std::string& where) {
+// Opens `bytes` for decoding, and refuses what has more than `most_pixels`.
+PngSize open_png(spng_ctx* context, std::span<const std::uint8_t> bytes, std::uint64_t most_pixels,
+                 const std::string& where) {
     constexpr std::size_t kLargestChunk = std::size_t{1} << 26;
     check_spng(spng_set_png_buffer(context, bytes.data(), bytes.size()), where);
     check_spng(spng_set_chunk_limits(context, kLargestChunk, kLargestChunk), where);
     spng_ihdr header;
     check_spng(spng_get_ihdr(context, &header), where);
-    check_image_size(header.width, header.height, bytes_per_pixel, where);
+    check_image_size(header.width, header.height, most_pixels, where);
     return {header.width, header.height};
 }
 
@@ -51,7 +51,7 @@ bool is_png(std::span<const std::uint8_t> bytes) {
 Texture decode_png(std::span<const std::uint8_t> bytes, const std::string& where) {
     const Context context(spng_ctx_new(0));
     if (!context) throw Error(where, "PNG: out of memory");
-    const PngSize size = open_png(context.get(), bytes, 4, where);
+    const PngSize size = open_png(context.get(), bytes, kMaxTexturePixels, where);
     Texture texture;
     texture.width = static_cast<int>(size.width);
     texture.height = static_cast<int>(size.height);
@@ -65,7 +65,7 @@ Texture decode_png(std::span<const std::uint8_t> bytes, const std::string& where
 Image decode_png_linear(std::span<const std::uint8_t> bytes, const std::string& where) {
     const Context context(spng_ctx_new(0));
     if (!context) throw Error(where, "PNG: out of memory");
-    const PngSize size = open_png(context.get(), bytes, 12, where);
+    const PngSize size = open_png(context.get(), bytes, kMaxPicturePixels, where);
     std::vector<std::array<std::uint16_t, 4>> pixels(std::size_t{size.width} * size.height);
     check_spng(spng_decode_image(context.get(), pixels.data(), 8 * pixels.size(), SPNG_FMT_RGBA16,
                                  SPNG_DECODE_TRNS),

@@ -6,24 +6,13 @@
 #include "import/read_obj.h"
 #include "import/scene_file.h"
 
-#include <algorithm>
-#include <cctype>
 #include <new>
 
 namespace chiaro {
 namespace {
 
-void check_options(const LoadOptions& options) {
-    if (options.up && !(is_finite(*options.up) && glm::dot(*options.up, *options.up) > 0))
-        throw Error("--up", "the vertical axis has no direction", "give one like 0,0,1");
-    if (!(options.scale > 0 && options.scale <= 1e18f))
-        throw Error("--scale", "the scale is not a number above 0");
-}
-
 Scene read_scene(const std::filesystem::path& file, const std::string& where) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(file);
     const bool known = extension == ".obj" || extension == ".gltf" || extension == ".glb";
     std::error_code ignored;
     if (!known && !std::filesystem::is_directory(file, ignored))
@@ -32,14 +21,15 @@ Scene read_scene(const std::filesystem::path& file, const std::string& where) {
 
     const std::string bytes = read_whole_file(file, where);
     if (bytes.empty()) throw Error(where, "the file is empty");
-    const SceneFile source = {where, file.parent_path(), bytes};
+    // Files are named from where the scene really is, should it be reached by a link.
+    const bool link = std::filesystem::is_symlink(file, ignored);
+    const SceneFile source = {where, (link ? real_path(file) : file).parent_path(), bytes};
     return extension == ".obj" ? read_obj(source) : read_gltf(source, extension == ".glb");
 }
 
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
-    check_options(options);
     const std::string where = printable(file.string());
     try {
         Scene scene = read_scene(file, where);

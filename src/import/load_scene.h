@@ -9,6 +9,18 @@
 
 namespace chiaro {
 
+/// The largest coordinate of anything [scene units]. Choosing among lights takes squares of squares
+/// of distances, which are no floats beyond about four times this.
+inline constexpr float kFarthest = 1e9f;
+inline bool within_reach(Vec3 p) {
+    const Vec3 size = glm::abs(p);
+    return size.x <= kFarthest && size.y <= kFarthest && size.z <= kFarthest;
+}
+
+/// The brightest light a channel [cd/m2, cd, lux]: variances are squares, with room for what a
+/// light near by adds.
+inline constexpr float kBrightest = 1e15f;
+
 struct LoadOptions {
     /// The file's vertical axis, of any length; absent: +y. The geometry is not turned.
     std::optional<Vec3> up = std::nullopt;

@@ -1,11 +1,11 @@
 #include "import/obj_geometry.h"
 
 #include "base/error.h"
+#include "import/directions.h"
 #include "import/ear_clip.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <span>
 #include <unordered_map>
 
@@ -25,12 +25,6 @@ struct CornerEqual {
         return a.v == b.v && a.vt == b.vt && a.vn == b.vn;
     }
 };
-
-// Unit vector along `v`, or zero where it has no direction.
-Vec3 unit_or_zero(glm::dvec3 v) {
-    const double length = glm::length(v);
-    return length > 0 && std::isfinite(length) ? Vec3(v / length) : Vec3(0);
-}
 
 class MeshMaker {
 public:
@@ -78,12 +72,7 @@ private:
     }
 
     Vec3 face_normal() const {
-        glm::dvec3 sum(0);
-        const glm::dvec3 origin(outline_[0]);
-        for (std::size_t i = 1; i + 1 < outline_.size(); ++i)
-            sum +=
-                glm::cross(glm::dvec3(outline_[i]) - origin, glm::dvec3(outline_[i + 1]) - origin);
-        const Vec3 normal = unit_or_zero(sum);
+        const Vec3 normal = unit_or_zero(vector_area(outline_));
         return normal == Vec3(0) ? Vec3(0, 0, 1) : normal;
     }
 

@@ -1,6 +1,7 @@
 #include "import/read_gltf.h"
 
 #include "import/fault.h"
+#include "import/finish_scene.h"
 #include "import/gltf_check.h"
 #include "import/gltf_document.h"
 #include "import/gltf_material.h"
@@ -67,9 +68,9 @@ public:
     explicit SceneBuilder(GltfDocument& document)
         : document_(document), model_(document.model()), materials_(document, scene_) {}
 
-    Scene build() {
+    Scene build(const std::string& where) {
         walk(root_nodes());
-        materials_.warn_of_unused_images();
+        materials_.read(drop_unseen(scene_, where));
         add_warnings();
         return std::move(scene_);
     }
@@ -179,10 +180,7 @@ private:
         light.name = light_name_(node.name.empty() ? source.name : node.name, "light");
         light.position = Vec3(to_world[3]);
         light.intensity = Rgb(static_cast<float>(source.intensity));
-        if (source.color.size() == 3)
-            light.intensity *= glm::max(Rgb(to_vec3(source.color, dvec3(1))), Rgb(0));
-        if (!is_finite(light.intensity))
-            throw Error(where, "its light's intensity is not a number that a float holds");
+        light.intensity *= Rgb(to_vec3(source.color, dvec3(1)));
         if (source.range > 0) light.range = static_cast<float>(source.range);
         scene_.lights.push_back(std::move(light));
     }
@@ -230,7 +228,7 @@ private:
 Scene read_gltf(const SceneFile& file, bool binary) {
     GltfDocument document(file, binary);
     check_primitives(document);
-    return SceneBuilder(document).build();
+    return SceneBuilder(document).build(file.where);
 }
 
 }  // namespace chiaro

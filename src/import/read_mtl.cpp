@@ -76,6 +76,15 @@ private:
             current_->emission = map();
         else if (key == "map_d")
             current_->alpha = map();
+        else if (key == "bump" || key == "map_bump" || key == "map_Bump" || key == "norm")
+            note_bump_map();
+    }
+
+    void note_bump_map() {
+        if (!materials_.has_bump_maps_)
+            materials_.scene_.warnings.push_back(
+                lines_.where() + ": bump and normal maps are not supported and were left out");
+        materials_.has_bump_maps_ = true;
     }
 
     float unit_number(const char* name) { return std::clamp(lines_.number_word(name), 0.0f, 1.0f); }
@@ -85,21 +94,15 @@ private:
         const std::string_view first = lines_.word();
         if (first == "spectral" || first == "xyz")
             lines_.refuse(fmt::format("{} {} is not supported", name, first));
-        const std::optional<float> red = parse_number(first);
-        if (!red || !std::isfinite(*red))
-            lines_.refuse(fmt::format("{}: \"{}\" is not a number", name, printable(first)));
+        const float red = lines_.to_number(first, name);
         const std::optional<float> green = lines_.optional_number(name);
-        if (!green) return Rgb(*red);
-        return {*red, *green, lines_.number_word(name)};
+        if (!green) return Rgb(red);
+        return {red, *green, lines_.number_word(name)};
     }
 
     void read_opacity() {
         const std::string_view first = lines_.word();
-        if (first == "-halo") return;
-        const std::optional<float> opacity = parse_number(first);
-        if (!opacity || !std::isfinite(*opacity))
-            lines_.refuse(fmt::format("d: \"{}\" is not a number", printable(first)));
-        set_alpha(std::clamp(*opacity, 0.0f, 1.0f));
+        if (first != "-halo") set_alpha(std::clamp(lines_.to_number(first, "d"), 0.0f, 1.0f));
     }
 
     void set_alpha(float alpha) {
@@ -121,11 +124,18 @@ private:
             if (option.key == "-mm") map.gain = option.pair(1).y;
             name = option.rest;
         }
-        if (name.empty()) lines_.refuse("a map without the name of a file");
+        if (without_comment(name).empty()) lines_.refuse("a map without the name of a file");
+        map.file = file_called(name);
+        std::error_code ignored;
+        if (!std::filesystem::exists(materials_.folder_ / map.file, ignored))
+            map.file = file_called(without_comment(name));
+        return map;
+    }
+
+    std::filesystem::path file_called(std::string_view name) const {
         std::string file(name);
         std::ranges::replace(file, '\\', '/');
-        map.file = subfolder_ / file;
-        return map;
+        return subfolder_ / file;
     }
 
     // One option of a map: its key and the words that belong to it.
@@ -155,7 +165,8 @@ private:
         Vec2 pair(float missing) const {
             const auto number = [&](std::size_t i) {
                 const auto value = i < words.size() ? parse_number(words[i]) : std::nullopt;
-                return value && std::isfinite(*value) ? *value : missing;
+                const auto rounded = static_cast<float>(value.value_or(missing));
+                return std::isfinite(rounded) ? rounded : missing;
             };
             return {number(0), number(1)};
         }
@@ -167,12 +178,33 @@ private:
     Definition* current_ = nullptr;
 };
 
-void MtlMaterials::read(const std::string& name, const std::string& where) {
+// False if there is no such file.
+bool MtlMaterials::read_library(const std::string& name, const std::string& where) {
     const std::filesystem::path path = resolve_beside(folder_, name, where);
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return false;
     const std::string shown = printable(path.string());
     const std::string text = read_whole_file(path, shown);
     const auto subfolder = std::filesystem::path(name).lexically_normal().parent_path();
     MtlReader(*this, text, subfolder, shown).read_all();
+    return true;
+}
+
+void MtlMaterials::read_libraries(std::string names, const std::string& where) {
+    std::ranges::replace(names, '\\', '/');
+    const std::string plain(without_comment(names));
+    if (plain.empty()) throw Error(where, "mtllib names no file");
+    // Names with spaces in them look like several, and those with a # like a comment: the whole is
+    // tried first.
+    if (read_library(names, where) || read_library(plain, where)) return;
+    for (std::size_t start = 0; start < plain.size();) {
+        const std::size_t end = std::min(plain.find_first_of(" \t", start), plain.size());
+        const std::string name = plain.substr(start, end - start);
+        start = std::min(plain.find_first_not_of(" \t", end), plain.size());
+        if (!read_library(name, where))
+            scene_.warnings.push_back(
+                fmt::format("{}: there is no file \"{}\" of materials", where, printable(name)));
+    }
 }
 
 TextureUse MtlMaterials::use(const Map& map) {
@@ -197,8 +229,8 @@ TextureUse MtlMaterials::use(const Map& map) {
     return use;
 }
 
-void MtlMaterials::load_maps(Definition& definition) {
-    Material& material = definition.material;
+void MtlMaterials::load_maps(const Definition& definition) {
+    Material& material = scene_.materials[index_of(definition.id)];
     const auto& [diffuse, emission, alpha] =
         std::tie(definition.diffuse, definition.emission, definition.alpha);
     material.base_color_texture = use(diffuse);
@@ -222,15 +254,21 @@ void MtlMaterials::load_maps(Definition& definition) {
 }
 
 MaterialId MtlMaterials::find(const std::string& name) {
-    const auto found = definitions_.find(name);
+    auto found = definitions_.find(name);
+    if (found == definitions_.end()) found = definitions_.find(std::string(without_comment(name)));
     if (found == definitions_.end()) return MaterialId::none;
     Definition& definition = found->second;
     if (definition.id == MaterialId::none) {
-        load_maps(definition);
         definition.id = static_cast<MaterialId>(scene_.materials.size());
         scene_.materials.push_back(definition.material);
+        found_.push_back(definition);
     }
     return definition.id;
+}
+
+void MtlMaterials::load_textures(const std::vector<bool>& in_use) {
+    for (const Definition& definition : found_)
+        if (in_use[index_of(definition.id)]) load_maps(definition);
 }
 
 MaterialId MtlMaterials::fallback() {

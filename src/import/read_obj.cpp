@@ -1,6 +1,8 @@
 #include "import/read_obj.h"
 
+#include "import/directions.h"
 #include "import/fault.h"
+#include "import/finish_scene.h"
 #include "import/obj_geometry.h"
 #include "import/read_mtl.h"
 #include "import/text_lines.h"
@@ -8,10 +10,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <set>
 
@@ -41,6 +41,7 @@ public:
                         "export the scene as polygons");
         if (faces_ == 0) throw Error(file_.where, "there is no face in the file");
         make_objects();
+        materials_.load_textures(drop_unseen(scene_, file_.where));
         add_warnings();
         return std::move(scene_);
     }
@@ -59,9 +60,9 @@ private:
         else if (key == "o" || key == "g")
             begin_part(key == "o");
         else if (key == "usemtl")
-            use_material(std::string(lines_.remainder()));
+            use_material();
         else if (key == "mtllib")
-            read_libraries(std::string(lines_.remainder()));
+            materials_.read_libraries(std::string(lines_.remainder()), lines_.where());
         else
             note_other(key);
     }
@@ -111,9 +112,7 @@ private:
 
     void read_normal() {
         const float x = lines_.number_word("x"), y = lines_.number_word("y");
-        const glm::dvec3 normal(x, y, lines_.number_word("z"));
-        const double length = glm::length(normal);
-        geometry_.vn.push_back(length > 0 ? Vec3(normal / length) : Vec3(0));
+        geometry_.vn.push_back(unit_or_zero({x, y, lines_.number_word("z")}));
     }
 
     // A position in a list from what a face says: from 1, or from its end so far if negative.
@@ -167,9 +166,8 @@ private:
         if (count < 3)
             lines_.refuse(fmt::format("a face needs at least 3 corners and has {}", count));
         if (geometry_.corners.size() > kMaxCorners) lines_.refuse("there are too many faces");
-        if (material_ == MaterialId::none) material_ = materials_.fallback();
         current_part().faces.push_back({static_cast<std::uint32_t>(first),
-                                        static_cast<std::uint32_t>(count), material_,
+                                        static_cast<std::uint32_t>(count), current_material(),
                                         lines_.number()});
         ++faces_;
     }
@@ -200,36 +198,22 @@ private:
         return geometry_.parts[part_];
     }
 
-    void use_material(const std::string& name) {
-        material_ = materials_.find(name);
-        if (material_ != MaterialId::none) return;
-        material_ = materials_.fallback();
-        if (missing_materials_.insert(name).second)
-            warn(fmt::format("material \"{}\" is not defined; grey takes its place",
-                             printable(name)));
+    void use_material() {
+        material_ = MaterialId::none;
+        material_name_ = lines_.remainder();
+        material_line_ = lines_.number();
     }
 
-    // Names with spaces in them look like several: the whole is tried first.
-    void read_libraries(const std::string& names) {
-        std::error_code ignored;
-        const auto exists = [&](const std::string& name) {
-            return std::filesystem::is_regular_file(
-                resolve_beside(file_.folder, name, lines_.where()), ignored);
-        };
-        std::string all = names;
-        std::ranges::replace(all, '\\', '/');
-        if (all.empty()) lines_.refuse("mtllib names no file");
-        if (exists(all)) return materials_.read(all, lines_.where());
-
-        for (std::size_t start = 0; start < all.size();) {
-            const std::size_t end = std::min(all.find_first_of(" \t", start), all.size());
-            const std::string name = all.substr(start, end - start);
-            start = std::min(all.find_first_not_of(" \t", end), all.size());
-            if (exists(name))
-                materials_.read(name, lines_.where());
-            else
-                warn(fmt::format("there is no file \"{}\" of materials", printable(name)));
-        }
+    // Looked up when a face needs it: a material that none has is no concern of ours.
+    MaterialId current_material() {
+        if (material_ != MaterialId::none) return material_;
+        if (material_line_ > 0) material_ = materials_.find(material_name_);
+        if (material_ != MaterialId::none) return material_;
+        if (material_line_ > 0 && missing_materials_.insert(material_name_).second)
+            scene_.warnings.push_back(
+                fmt::format("{}: material \"{}\" is not defined; grey takes its place",
+                            lines_.where(material_line_), printable(material_name_)));
+        return material_ = materials_.fallback();
     }
 
     void check_indices() const {
@@ -258,8 +242,6 @@ private:
             material.name = material_name(material.name, "material");
     }
 
-    void warn(const std::string& what) { scene_.warnings.push_back(lines_.where() + ": " + what); }
-
     void add_warnings() {
         const auto add = [&](const std::string& what) {
             scene_.warnings.push_back(file_.where + ": " + what);
@@ -282,7 +264,9 @@ private:
     std::string object_, group_;
     std::size_t part_ = kNoPart;
     std::unordered_map<std::string, std::size_t> part_of_;
-    MaterialId material_ = MaterialId::none;
+    MaterialId material_ = MaterialId::none;  // none: not looked up yet
+    std::string material_name_;
+    std::uint32_t material_line_ = 0;  // of its usemtl; 0: there was none
     LargestIndex largest_v_, largest_vt_, largest_vn_;
     std::size_t faces_ = 0;
     std::uint32_t curves_line_ = 0;  // the first statement of a curve or surface; 0: none

@@ -20,9 +20,13 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
+bool goes_on(std::string_view line) {
+    return line.ends_with('\\') && without_comment(line).size() == line.size();
+}
+
 }  // namespace
 
-std::optional<float> parse_number(std::string_view word) {
+std::optional<double> parse_number(std::string_view word) {
     if (word.starts_with('+')) {
         word.remove_prefix(1);
         if (word.starts_with('-')) return std::nullopt;
@@ -32,10 +36,22 @@ std::optional<float> parse_number(std::string_view word) {
     if (end != word.data() + word.size() || word.empty()) return std::nullopt;
     if (status == std::errc::result_out_of_range) {
         const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
-        return tiny ? 0.0f : kInfinity;
+        return tiny ? 0.0 : double(kInfinity);
     }
     if (status != std::errc()) return std::nullopt;
-    return static_cast<float>(value);
+    return value;
+}
+
+std::string_view without_comment(std::string_view text) {
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == '#' && (i == 0 || is_blank(text[i - 1]))) return trimmed(text.substr(0, i));
+    return text;
+}
+
+TextLines::TextLines(std::string_view text, std::string file)
+    : rest_(text), file_(std::move(file)) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
 }
 
 std::string_view TextLines::physical_line() {
@@ -55,13 +71,11 @@ bool TextLines::next() {
     while (!rest_.empty()) {
         line_ = physical_line();
         number_ = lines_taken_;
-        if (line_.ends_with('\\')) {
-            joined_.assign(line_);
-            while (joined_.ends_with('\\')) {
-                joined_.back() = ' ';
-                if (!rest_.empty()) joined_ += physical_line();
-            }
-            line_ = joined_;
+        if (goes_on(line_)) {
+            joined_.clear();
+            for (; goes_on(line_); line_ = rest_.empty() ? "" : physical_line())
+                joined_.append(line_.substr(0, line_.size() - 1)) += ' ';
+            line_ = joined_.append(line_);
         }
         line_ = trimmed(line_);
         if (!line_.empty() && line_.front() != '#') return true;
@@ -98,11 +112,16 @@ float TextLines::number_word(const char* name) {
 std::optional<float> TextLines::optional_number(const char* name) {
     const std::string_view text = word();
     if (text.empty()) return std::nullopt;
-    const std::optional<float> value = parse_number(text);
-    if (!value) refuse(fmt::format("{}: \"{}\" is not a number", name, printable(text)));
-    if (!std::isfinite(*value))
-        refuse(fmt::format("{}: \"{}\" is not finite", name, printable(text)));
-    return value;
+    return to_number(text, name);
+}
+
+float TextLines::to_number(std::string_view word, const char* name) const {
+    const std::optional<double> value = parse_number(word);
+    if (!value) refuse(fmt::format("{}: \"{}\" is not a number", name, printable(word)));
+    const auto number = static_cast<float>(*value);
+    if (!std::isfinite(number))
+        refuse(fmt::format("{}: \"{}\" is not finite", name, printable(word)));
+    return number;
 }
 
 }  // namespace chiaro

@@ -12,17 +12,19 @@
 namespace chiaro {
 
 /// Steps through the lines of a text. A line that ends in a backslash goes on in the next; a line
-/// ends in LF, CR LF or CR; empty lines and lines of comment are skipped.
+/// ends in LF, CR LF or CR; empty lines and lines of comment are skipped, and so is a byte order
+/// mark. A comment ends with its line, whatever that ends in.
 class TextLines {
 public:
     /// `text` must outlive this; `file` is how messages name it.
-    TextLines(std::string_view text, std::string file) : rest_(text), file_(std::move(file)) {}
+    TextLines(std::string_view text, std::string file);
 
     /// Moves to the next line; false at the end.
     bool next();
     /// The next word of the line; empty at its end or where a comment begins.
     std::string_view word();
-    /// What is left of the line, without the white space round it; a comment is part of it.
+    /// What is left of the line, without the white space round it; a comment is part of it (names
+    /// may have a # in them: see without_comment).
     std::string_view remainder();
 
     /// Number of the line (the first of those that a backslash joins), from 1.
@@ -37,6 +39,8 @@ public:
     float number_word(const char* name);
     /// The same, if the line has another word.
     std::optional<float> optional_number(const char* name);
+    /// The same, of a word that has been taken already.
+    float to_number(std::string_view word, const char* name) const;
 
 private:
     std::string_view physical_line();
@@ -49,7 +53,11 @@ private:
     std::uint32_t lines_taken_ = 0;
 };
 
-/// `word` as a number, whatever the locale; empty if it is malformed. Infinite if it is too large.
-std::optional<float> parse_number(std::string_view word);
+/// `word` as a number, whatever the locale; a + may come before it. Empty if it is malformed, and
+/// infinite if it is too large.
+std::optional<double> parse_number(std::string_view word);
+
+/// What of `text` comes before a # that begins a word; all if none does.
+std::string_view without_comment(std::string_view text);
 
 }  // namespace chiaro

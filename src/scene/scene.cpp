@@ -135,13 +135,22 @@ Box bounds(const Scene& scene) {
 }
 
 bool has_light(const Scene& scene) {
+    // A black texture makes an emissive material dark.
+    std::vector<bool> emissive;
+    for (const Material& material : scene.materials) {
+        const TextureUse& use = material.emission_texture;
+        const Rgb tint =
+            material.emissive() && use.used() ? mean_color(scene.texture(use.texture)) : Rgb(1);
+        emissive.push_back(max_component(material.emission * tint) > 0);
+    }
     const auto emits = [&](const Primitive& primitive) {
-        return scene.material(primitive.material).emissive();
+        return emissive[index_of(primitive.material)];
     };
     const auto shines = [&](const Object& object) {
         return std::ranges::any_of(scene.mesh_of(object).primitives, emits);
     };
-    return !scene.lights.empty() || std::ranges::any_of(scene.objects, shines);
+    const auto lit = [](const PunctualLight& light) { return max_component(light.intensity) > 0; };
+    return std::ranges::any_of(scene.lights, lit) || std::ranges::any_of(scene.objects, shines);
 }
 
 std::size_t order_primitives(Mesh& mesh) {

@@ -22,52 +22,69 @@ std::string gltf_triangle(std::vector<std::uint16_t> indices, float x,
            more + "}";
 }
 
-TEST(BadFiles, EachIsRefusedInOneLine) {
-    const TempFolder folder;
-    const auto refused = [&](const std::string& name, const std::string& bytes,
-                             const std::string& said) {
-        const std::string file = folder.write(name, bytes).string();
-        expect_refused({"info", file}, file);
-        expect_refused({"info", file}, said);
-        expect_refused({"render", file, "-o", (folder.path() / "a.png").string()}, said);
-    };
-    refused("empty.gltf", "", "empty");
-    refused("empty.glb", "", "empty");
-    refused("empty.obj", "", "empty");
-    refused("scene.fbx", "FBX", ".gltf, .glb and .obj");
-    refused("scene", "?", ".gltf, .glb and .obj");
-    refused("noise.gltf", "\x01\x02\xff\xfe", "noise.gltf");
-    refused("noise.glb", "\x01\x02\xff\xfe", "noise.glb");
-    refused("deep.gltf", std::string(100'000, '['), "64");
+constexpr char kPoints[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
+
+// What may be wrong with a scene, the status that `render` ends with and what it says.
+struct Kind {
+    const char* name;  // of the file in the test's folder
+    std::string bytes;
+    int status;
+    const char* said;
+};
+
+std::vector<Kind> kinds() {
     std::string objects;
     for (int i = 0; i < 100'000; ++i) objects += "{\"a\":";
-    refused("deep_objects.gltf", objects, "64");
-    refused("index.gltf", gltf_triangle({0, 1, 3}, 0), "indices");
-    refused("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "index.obj:4");
-    refused("nan.gltf", gltf_triangle({0, 1, 2}, NAN), "accessors[0]");
-    refused("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "nan.obj:1");
-    EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.png"));
+    const std::string face = kPoints + std::string("f 1 2 3\n");
+    const std::string textured = kPoints + std::string("usemtl m\nf 1/1 2/1 3/1\n");
+    const char* const wood = R"("materials":[{"emissiveTexture":{"index":0},
+        "emissiveFactor":[1,1,1]}],"textures":[{"source":0}],"images":[{"uri":"wood.png"}])";
+    return {
+        {"empty.gltf", "", 2, "empty"},
+        {"empty.glb", "", 2, "empty"},
+        {"empty.obj", "", 2, "empty"},
+        {"scene.fbx", "FBX", 2, ".gltf, .glb and .obj"},
+        {"scene", "?", 2, ".gltf, .glb and .obj"},
+        {"noise.gltf", "\x01\x02\xff\xfe", 2, "noise.gltf"},
+        {"noise.glb", "\x01\x02\xff\xfe", 2, "noise.glb"},
+        {"deep.gltf", std::string(100'000, '['), 2, "64"},
+        {"deep_objects.gltf", objects, 2, "64"},
+        {"index.gltf", gltf_triangle({0, 1, 3}, 0), 2, "indices"},
+        {"index.obj", kPoints + std::string("f 1 2 4\n"), 2, "index.obj:5"},
+        {"nan.gltf", gltf_triangle({0, 1, 2}, NAN), 2, "accessors[0]"},
+        {"inf.gltf", gltf_triangle({0, 1, 2}, INFINITY), 2, "accessors[0]"},
+        {"nan.obj", "v 0 0 nan\n" + face, 2, "nan.obj:1"},
+        {"far.obj", "v 0 0 -1e13\nv 1e13 0 0\nv 0 1e13 0\nf 1 2 3\n", 2, "beyond 1e9"},
+        {"texture.obj", "mtllib wood.mtl\n" + textured, 2, "wood.png"},
+        {"texture.gltf", gltf_triangle({0, 1, 2}, 0, wood), 2, "wood.png"},
+        {"library.obj", "mtllib gone.mtl\n" + face, 0, "gone.mtl"},
+        {"dark.gltf", gltf_triangle({0, 1, 2}, 0), 0, "no light"},
+        {"dark.obj", face, 0, "no light"},
+        {"sound.gltf", gltf_triangle({0, 1, 2}, 0), 0, ""},
+    };
 }
 
-TEST(BadFiles, AnAbsentTextureIsNamed) {
+TEST(BadFiles, EachKindIsRefusedInOneLineOrRendered) {
     const TempFolder folder;
-    folder.write("a.mtl", "newmtl m\nmap_Kd wood.png\n");
-    const std::string obj = folder
-                                .write("a.obj",
-                                       "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\n"
-                                       "f 1/1 2/1 3/1\n")
-                                .string();
-    expect_refused({"info", obj}, "wood.png");
-    const std::string gltf =
-        folder
-            .write("a.gltf", gltf_triangle({0, 1, 2}, 0,
-                                           R"("materials":[{"emissiveTexture":{"index":0},
-            "emissiveFactor":[1,1,1]}],"textures":[{"source":0}],"images":[{"uri":"wood.png"}])"))
-            .string();
-    expect_refused({"info", gltf}, "wood.png");
+    folder.write("wood.mtl", "newmtl m\nmap_Kd wood.png\n");
+    const std::string picture = (folder.path() / "a.png").string();
+    for (const Kind& kind : kinds()) {
+        const std::string file = folder.write(kind.name, kind.bytes).string();
+        const Arguments render = {"render", file,    "-o",        picture,
+                                  "--size", "16x16", "--samples", "9"};
+        if (kind.status == 0) {
+            const Outcome outcome = expect_done(render);
+            EXPECT_NE(outcome.err.find(kind.said), std::string::npos) << kind.name << outcome.err;
+        } else {
+            expect_refused({"info", file}, folder.path().string() + "/");
+            expect_refused({"info", file}, kind.said);
+            expect_refused(render, kind.said);
+        }
+        EXPECT_EQ(std::filesystem::remove(picture), kind.status == 0) << kind.name;
+    }
 }
 
-TEST(BadFiles, NoFileAndNoFolder) {
+TEST(BadFiles, NoFileAFolderAndNowhereToWrite) {
     const TempFolder folder;
     expect_refused({"info", "nowhere.gltf"}, "nowhere.gltf: there is no such file");
     expect_refused({"info", folder.path().string()}, "folder");
@@ -75,6 +92,9 @@ TEST(BadFiles, NoFileAndNoFolder) {
     expect_refused({"info", (folder.path() / "scene.gltf").string()}, "folder");
     expect_refused({"diff", "a.exr", "b.exr"}, "a.exr");
     expect_refused({"diff", folder.write("a.exr", "v/1").string(), "b.exr"}, "a.exr");
+    const std::string sound = folder.write("a.gltf", gltf_triangle({0, 1, 2}, 0)).string();
+    expect_refused({"render", sound, "-o", "/proc/a.png"}, "/proc/a.png");
+    expect_refused({"render", sound, "-o", (folder.path() / "no" / "a.png").string()}, "no folder");
 }
 
 // Names come from files: a line break or an escape in one must not break the one line or reach the
@@ -89,7 +109,8 @@ TEST(BadFiles, NamesCannotBreakTheLine) {
 
 // Every file of the collection, as the importer's table says; an accepted one ends with status 0.
 TEST(BadFiles, TheMalformedCollection) {
-    if (!std::filesystem::exists(malformed::kFolder)) GTEST_SKIP() << "the collection is not here";
+    if (!std::filesystem::exists(malformed::kFolder))
+        GTEST_SKIP() << "the malformed collection is not in " << malformed::kFolder;
     for (const auto& [name, verdict] : malformed::kExpected) {
         const std::string file = (malformed::kFolder / name).string();
         if (verdict == malformed::refused)

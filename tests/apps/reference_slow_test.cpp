@@ -42,32 +42,34 @@ TEST(Reference, SeedsAgreeWithinNoise) {
         for (int x = 0; x < 96; x += 12) {
             const float of_a = luminance(block_mean(a, x, y, x + 12, y + 16));
             const float of_b = luminance(block_mean(b, x, y, x + 12, y + 16));
-            // What lies beside the box is background.
-            EXPECT_NEAR(of_a, of_b, 0.06f * of_b + 1e-4f) << x << ", " << y;
+            // Beside the box is background; at its edge few pixels make up a block's light, which
+            // are as many times as noisy as they are few.
+            EXPECT_NEAR(of_a, of_b, 0.06f * of_b + 1.5e-3f) << x << ", " << y;
         }
 }
 
 // Blender Cycles 3.4.1, 800 x 600, 800 samples a pixel, of the same OBJ file: the mean of all
-// pixels agrees within 1 %, ten regions within 1.5 % (converged, the top of the back wall is 1.1 %
-// brighter here than there; all others agree within 0.8 %).
+// pixels and of eight regions agrees within 1 %. Not compared is the top of the back wall, where
+// light from the lamp grazes and Cycles' sampling of spherical triangles loses up to 1.6 % to its
+// floats; there our direct light is held against Lambert's formula
+// (CornellBox.BackWallAgreesWithLambertsFormula).
 TEST(Reference, AgreesWithCycles) {
     const std::string folder = CHIARO_REFERENCES;
-    if (!std::filesystem::exists(folder + "/cornell_cycles.exr")) GTEST_SKIP() << "not here";
+    if (!std::filesystem::exists(folder + "/cornell_cycles.exr"))
+        GTEST_SKIP() << "no cornell_cycles.exr in " << folder;
     const Image cycles = read_image(folder + "/cornell_cycles.exr");
     ASSERT_EQ(cycles.width, 800);
     ASSERT_EQ(cycles.height, 600);
     const Image ours =
         reference({folder + "/cornell.obj", "--size", "200x150", "--spp", "256", "--eye",
                    "2.78,2.73,-8", "--target", "2.78,2.73,0", "--vfov", "39.3076481"});
-    const int regions[11][4] = {
+    const int regions[9][4] = {
         {0, 0, 200, 150},      // all
         {90, 19, 109, 22},     // the lamp
         {60, 8, 140, 14},      // ceiling
         {33, 40, 46, 110},     // red wall
         {155, 40, 167, 110},   // green wall
-        {60, 35, 95, 58},      // back wall
-        {105, 35, 140, 60},    // back wall
-        {105, 65, 138, 92},    // back wall
+        {105, 65, 138, 92},    // back wall, below
         {60, 136, 92, 146},    // floor
         {76, 75, 92, 120},     // tall block
         {102, 105, 134, 135},  // short block
@@ -75,11 +77,10 @@ TEST(Reference, AgreesWithCycles) {
     for (const auto& r : regions) {
         const Rgb mine = block_mean(ours, r[0], r[1], r[2], r[3]);
         const Rgb theirs = block_mean(cycles, 4 * r[0], 4 * r[1], 4 * r[2], 4 * r[3]);
-        const bool all = r[0] == 0;
-        EXPECT_NEAR(luminance(mine) / luminance(theirs), 1, all ? 0.01 : 0.015)
+        EXPECT_NEAR(luminance(mine) / luminance(theirs), 1, 0.01)
             << "from " << r[0] << ", " << r[1];
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(mine[c] / theirs[c], 1, 0.02) << "channel " << c << " from " << r[0];
+            EXPECT_NEAR(mine[c] / theirs[c], 1, 0.01) << "channel " << c << " from " << r[0];
     }
 }
 

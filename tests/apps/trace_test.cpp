@@ -1,6 +1,8 @@
 // chiaro trace: light at points, a line in and a line out, as Radiance's rtrace.
 #include "apps/command.h"
 
+#include <poll.h>
+
 namespace chiaro {
 namespace {
 
@@ -64,9 +66,12 @@ TEST(Trace, TheSameBytesOnAnyNumberOfThreads) {
 // A malformed line is named by its number, and what stood before it in the same batch is not half
 // answered.
 TEST(Trace, MalformedLinesAreNamed) {
-    const char* const table[] = {"1 2 3 4 5",       "1 2 3 0 1 0 7", "1 2 x 0 1 0",  "1 2 3 0 0 0",
-                                 "1 2 nan 0 1 0",   "1 2 inf 0 1 0", "1,2,3,0,1,0",  "hello",
-                                 "1 2 3 0 1 1e999", "0x1 2 3 0 1 0", "1 2 3 0 1 0x", "+ 1 2 3 0 1"};
+    const char* const table[] = {"1 2 3 4 5",        "1 2 3 0 1 0 7",   "1 2 x 0 1 0",
+                                 "1 2 3 0 0 0",      "1 2 nan 0 1 0",   "1 2 inf 0 1 0",
+                                 "1,2,3,0,1,0",      "hello",           "1 2 3 0 1 1e999",
+                                 "0x1 2 3 0 1 0",    "1 2 3 0 1 0x",    "+ 1 2 3 0 1 0",
+                                 "+-1 2 3 0 1 0",    "1 2 3 0 1 0 +",   "1e18 0 0 0 1 0",
+                                 "0 -1.1e9 0 0 1 0", "0 0 1e300 0 1 0", "1 2 3 0 1e-400 0"};
     for (const char* line : table) {
         const Outcome outcome =
             chiaro_with({"trace", "-I", "builtin:cornell"},
@@ -78,10 +83,106 @@ TEST(Trace, MalformedLinesAreNamed) {
     }
 }
 
+// A direction's length means nothing, be its square beyond what floats or doubles hold.
+TEST(Trace, DirectionsMayHaveAnyLength) {
+    const TempFolder folder;
+    const std::string scene = folder.write("lamp.gltf", kLamp).string();
+    const std::string points =
+        "0 0 0 0 1e20 0\n0 0 0 0 1e-30 0\n0 0 0 0 1e300 0\n0 0 0 0 1e-300 0\n"
+        "+0 0 0 3e-200 4e-200 +0\n1e9 1e9 -1e9 0 1 0\n";
+    const auto lux = numbers(expect_done({"trace", "-I", "--lux", scene}, points).out);
+    ASSERT_EQ(lux.size(), 6u);
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(lux[i], 25, 1e-3) << i;
+    EXPECT_NEAR(lux[4], 20, 1e-3);
+    EXPECT_EQ(lux[5], 0);  // above the lamp, and looking up
+    for (const char* length : {"1e20", "1e-30"}) {
+        const std::string ray = "2.78 2.7 2.8 0 " + std::string(length) + " 0\n";
+        EXPECT_NEAR(numbers(expect_done({"trace", "builtin:cornell"}, ray).out).at(0), 17, 1e-3);
+    }
+}
+
+// Both halves of a seed count, and one that is too large is refused, not cut.
+TEST(Trace, ASeedHas64Bits) {
+    const auto out = [](const char* seed) {
+        return expect_done(
+                   {"trace", "-I", "builtin:cornell", "--indirect-samples", "16", "--seed", seed},
+                   "1 0.001 1 0 1 0\n")
+            .out;
+    };
+    EXPECT_NE(out("1"), out("4294967297"));  // 2^32 + 1
+    EXPECT_NE(out("4294967297"), out("8589934593"));
+    EXPECT_EQ(out("18446744073709551615"), out("18446744073709551615"));
+    for (const char* seed : {"18446744073709551616", "-1", "1.5", "0x10", ""})
+        expect_refused({"trace", "-I", "builtin:cornell", "--seed", seed}, "--seed");
+}
+
+// A `chiaro trace` at the other end of two pipes.
+class Conversation {
+public:
+    explicit Conversation(const Arguments& arguments) {
+        int to[2], from[2];
+        if (::pipe(to) != 0 || ::pipe(from) != 0) throw std::runtime_error("no pipes");
+        std::vector<char*> argv = {const_cast<char*>(CHIARO_BINARY)};
+        for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+        argv.push_back(nullptr);
+        pid_ = ::fork();
+        if (pid_ == 0) {
+            ::dup2(to[0], STDIN_FILENO);
+            ::dup2(from[1], STDOUT_FILENO);
+            for (const int end : {to[0], to[1], from[0], from[1]}) ::close(end);
+            ::execv(argv[0], argv.data());
+            ::_exit(127);
+        }
+        ::close(to[0]);
+        ::close(from[1]);
+        to_ = to[1];
+        from_ = from[0];
+    }
+    ~Conversation() {
+        ::close(to_);
+        ::close(from_);
+        ::kill(pid_, SIGKILL);
+        ::waitpid(pid_, nullptr, 0);
+    }
+
+    // Says `line` and waits for an answer; empty if none comes for 20 s.
+    std::string answer(const std::string& line) {
+        if (::write(to_, line.data(), line.size()) != static_cast<ssize_t>(line.size())) return "";
+        std::string text;
+        pollfd answer = {from_, POLLIN, 0};
+        while (!text.ends_with('\n') && ::poll(&answer, 1, 20'000) == 1) {
+            char c = 0;
+            if (::read(from_, &c, 1) != 1) break;
+            text += c;
+        }
+        return text;
+    }
+
+private:
+    pid_t pid_ = -1;
+    int to_ = -1, from_ = -1;
+};
+
+// Who waits for an answer before the next question gets it, and it is the one that a file would
+// get.
+TEST(Trace, AnswersComeWhenNoMoreIsAsked) {
+    const std::vector<std::string> lines = {"1 0.001 1 0 1 0\n", "\n2 0.001 1 0 1 0\n",
+                                            "3 0.001 1 0 1 0\n"};
+    for (const Arguments& arguments : std::initializer_list<Arguments>{
+             {"trace", "-I", "builtin:cornell"},
+             {"trace", "builtin:cornell", "--indirect-samples", "4"}}) {
+        std::string together;
+        Conversation conversation(arguments);
+        for (const std::string& line : lines) together += conversation.answer(line);
+        EXPECT_EQ(together, expect_done(arguments, lines[0] + lines[1] + lines[2]).out);
+    }
+}
+
 // Radiance 6.1a, rtrace -I, converged: five points of the Cornell box's floor. Y of its r g b.
 TEST(Trace, AgreesWithRadiance) {
     const std::string folder = CHIARO_REFERENCES;
-    if (!std::filesystem::exists(folder + "/floor.pts")) GTEST_SKIP() << "no references here";
+    if (!std::filesystem::exists(folder + "/floor.pts"))
+        GTEST_SKIP() << "no floor.pts in " << folder;
     const double rgb[5][3] = {{0.20387, 0.09896, 0.02872},
                               {0.83502, 0.49900, 0.15955},
                               {0.76103, 0.61675, 0.16395},

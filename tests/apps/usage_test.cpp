@@ -28,6 +28,10 @@ TEST(Usage, EachWrongWordIsNamed) {
         {{"trace", "builtin:cornell", "--lux"}, "-I"},
         {{"trace", "-I", "builtin:cornell", "--direct-samples", "0"}, "--direct-samples"},
         {{"trace", "-I", "builtin:cornell", "--indirect-samples", "-4"}, "--indirect-samples"},
+        {{"trace", "builtin:cornell", "--seed", "1", "--seed", "2"},
+         "--seed: is given more than once"},
+        {{"trace", "builtin:cornell", "--seed"}, "--seed: its value is missing"},
+        {{"info", "builtin:cornell", "--up", "0,0,0"}, "--up"},
     };
     for (const Wrong& wrong : table) expect_refused(wrong.arguments, wrong.said);
 }
@@ -37,17 +41,43 @@ TEST(Usage, EachWrongOptionOfAPictureIsNamed) {
     const TempFolder folder;
     const std::string output = (folder.path() / "a.png").string();
     const Arguments table[] = {
-        {"--size", "0x0"},       {"--size", "800"},        {"--size", "800x"},
-        {"--size", "20000x10"},  {"--size", "8x8x8"},      {"--size", "-8x8"},
-        {"--eye", "1,2"},        {"--eye", "1,2,3,4"},     {"--eye", "1,nan,2"},
-        {"--eye", "1, 2, 3"},    {"--target", "here"},     {"--vfov", "0"},
-        {"--vfov", "180"},       {"--vfov", "wide"},       {"--vfov", "nan"},
-        {"--camera", "Nobody"},  {"--camera", "7"},        {"--camera", "-1"},
-        {"--threads", "-1"},     {"--threads", "1.5"},     {"--threads", "9999"},
-        {"--time", "-1"},        {"--time", "nan"},        {"--time", "soon"},
-        {"--renderer", "magic"}, {"--renderer", "gather"}, {"--seed", "-1"},
-        {"--seed", "x"},         {"--exposure", "nan"},    {"--exposure", "x"},
+        {"--size", "0x0"},
+        {"--size", "800"},
+        {"--size", "800x"},
+        {"--size", "20000x10"},
+        {"--size", "8x8x8"},
+        {"--size", "-8x8"},
+        {"--eye", "1,2"},
+        {"--eye", "1,2,3,4"},
+        {"--eye", "1,nan,2"},
+        {"--eye", "1, 2, 3"},
+        {"--target", "here"},
+        {"--vfov", "0"},
+        {"--vfov", "180"},
+        {"--vfov", "wide"},
+        {"--vfov", "nan"},
+        {"--camera", "Nobody"},
+        {"--camera", "7"},
+        {"--camera", "-1"},
+        {"--threads", "-1"},
+        {"--threads", "1.5"},
+        {"--threads", "9999"},
+        {"--time", "-1"},
+        {"--time", "nan"},
+        {"--time", "soon"},
+        {"--renderer", "magic"},
+        {"--renderer", "gather"},
+        {"--seed", "-1"},
+        {"--seed", "x"},
+        {"--exposure", "nan"},
+        {"--exposure", "x"},
         {"--up", "0,0"},
+        {"--up", "0,0,0"},
+        {"--eye", "1e18,0,0"},
+        {"--eye", "1e20,0,0"},
+        {"--target", "0,-2e9,0"},
+        {"--seed", "18446744073709551616"},
+        {"--seed"},
     };
     for (const char* command : {"render", "reference"})
         for (const Arguments& option : table) {
@@ -77,6 +107,11 @@ TEST(Usage, ViewsThatSeeNothingAreRefused) {
         "--target");
     expect_refused(
         {"render", "builtin:cornell", "-o", output, "--eye", "1,1,1", "--target", "1,5,1"}, "--up");
+    // It is the eye that is too far away, not the vertical that is wrong; and a vertical may be
+    // long.
+    expect_refused({"render", "builtin:cornell", "-o", output, "--eye", "1e20,0,0"}, "--eye");
+    expect_done({"render", "builtin:cornell", "-o", output, "--samples", "100", "--size", "16x16",
+                 "--eye", "+1,+2,3", "--up", "0,1e30,0"});
 }
 
 // An output that cannot be written is found before rendering (the time asked for is a minute), and
@@ -100,6 +135,12 @@ TEST(Usage, AnUnwritableOutputIsRefusedBeforeRendering) {
     expect_refused({"render", "builtin:cornell", "-o", there, "--time", "60", "--stats",
                     (folder.path() / "no" / "s.json").string()},
                    "s.json");
+    expect_refused({"render", "builtin:cornell", "-o", there, "--time", "60", "--stats",
+                    folder.path().string()},
+                   "is a folder");
+    expect_refused({"render", "builtin:cornell", "-o", there, "--time", "60", "--stats",
+                    (folder.path() / "." / "there.png").string()},
+                   "--stats");
     expect_refused({"render", "nowhere.gltf", "-o", there}, "nowhere.gltf");
     expect_refused({"render", "builtin:cornell", "-o", there, "--vfov", "200"}, "--vfov");
     EXPECT_EQ(read_text(there), "precious");
@@ -116,6 +157,7 @@ TEST(Usage, CommandsThatComeLaterSaySo) {
     // A scene alone means: view it.
     expect_refused({"builtin:room"}, "chiaro render builtin:room", 1);
     expect_refused({"room.gltf"}, "chiaro render room.gltf", 1);
+    expect_refused({"ROOM.OBJ"}, "chiaro render ROOM.OBJ", 1);
 }
 
 TEST(Usage, HelpHoldsExamples) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace chiaro {
 namespace {
 
@@ -58,6 +60,24 @@ TEST(ToneMap, PicturesForTheScreenAreWithinZeroAndOne) {
         }
     EXPECT_EQ(shown.at(0, 0), Rgb(0));
     EXPECT_GT(shown.at(1, 0).r, 0.1f);
+}
+
+// More exposure is never darker, however much it is.
+TEST(ToneMap, AnyExposureBrightens) {
+    Image image(3, 1);
+    image.at(0, 0) = Rgb(0.5f, 0.2f, 0);
+    image.at(1, 0) = Rgb(2, 0, 0);
+    float previous[2] = {};
+    for (const float stops : {0.0f, 2.0f, 10.0f, 30.0f, 68.0f, 100.0f, 127.0f, 130.0f, 1000.0f}) {
+        const Image shown = tone_mapped(image, std::exp2(stops));
+        for (int x = 0; x < 2; ++x) {
+            EXPECT_GE(shown.at(x, 0).r, previous[x]) << stops;
+            previous[x] = shown.at(x, 0).r;
+        }
+        EXPECT_EQ(shown.at(2, 0), Rgb(0)) << stops;
+    }
+    EXPECT_FLOAT_EQ(previous[0], 1);
+    EXPECT_FLOAT_EQ(previous[1], 1);
 }
 
 // An even picture has its median at two fifths. Where a fifth of the picture is a thousand times as

@@ -1,4 +1,5 @@
 #include "import/glb.h"
+#include "import/gltf_accessor.h"
 #include "import/import_testing.h"
 
 #include <limits>
@@ -99,7 +100,7 @@ TEST(GltfFaults, IndicesAndNumbersAreChecked) {
                              m.primitive()["attributes"]["POSITION"] =
                                  m.add_vec3({0, 0, 0, 3e38f, 0, 0, 0, 3e38f, 0});
                          }),
-                         "more than 1e18"));
+                         "beyond 1e9"));
     EXPECT_TRUE(contains(fault_after([](GltfMaker& m) { m.root["nodes"][0]["mesh"] = 7; }),
                          "nodes[0].mesh: 7 names one that is not there"));
     EXPECT_TRUE(contains(fault_after([](GltfMaker& m) { m.root["nodes"][0]["mesh"] = -1; }),
@@ -158,6 +159,122 @@ TEST(GltfFaults, ARequiredExtensionThatIsNotSupportedIsNamed) {
                              m.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
                          }),
                          "KHR_draco_mesh_compression is not supported"));
+}
+
+TEST(GltfFaults, WhatTheSpecificationForbidsOfNumbersAndPartsIsRefused) {
+    struct Fault {
+        const char* path;  // a JSON pointer
+        json value;
+        const char* said;
+    };
+    const auto spot = [](double inner, double outer) {
+        return json{{"type", "spot"},
+                    {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}};
+    };
+    const char* const kLight = "/extensions/KHR_lights_punctual/lights/0";
+    const Fault table[] = {
+        {"/materials/0/pbrMetallicRoughness/baseColorFactor", {5, 0, 0, 1}, "5 is out of range"},
+        {"/materials/0/pbrMetallicRoughness/baseColorFactor", {0, -1, 0, 1}, "-1 is out of range"},
+        {"/materials/0/emissiveFactor", {0, 0, 3}, "emissiveFactor[2]: 3 is out of range"},
+        {kLight, {{"type", "point"}, {"color", {2, 0, 0}}}, "2 is out of range"},
+        {kLight, spot(0.5, 0.4), "innerConeAngle is beyond outerConeAngle"},
+        {kLight, spot(0, 1.6), "1.6 is out of range"},
+        {kLight, {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.8}}}}, "beyond outerConeAngle"},
+        {"/extensionsRequired",
+         {"KHR_materials_ior"},
+         "KHR_materials_ior is not in extensionsUsed"},
+        {"/nodes/0",
+         {{"mesh", 0},
+          {"scale", {1, 1, 1}},
+          {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}},
+         "nodes[0]: has a matrix and a scale"},
+        {"/scenes", {{{"nodes", {0, 0}}}}, "scenes[0].nodes: names a node twice"},
+    };
+    for (const Fault& wrong : table) {
+        const auto change = [&](GltfMaker& m) {
+            m.root[json::json_pointer(wrong.path)] = wrong.value;
+        };
+        EXPECT_TRUE(contains(fault_after(change), wrong.said)) << fault_after(change);
+    }
+    // Equal angles are a sharp edge.
+    EXPECT_EQ(
+        fault_after([&](GltfMaker& m) { m.root[json::json_pointer(kLight)] = spot(0.4, 0.4); }),
+        "");
+}
+
+TEST(GltfFaults, LightTooBrightToSquareIsRefusedByName) {
+    const auto emission = [](double strength) {
+        return fault_after([&](GltfMaker& m) {
+            m.primitive()["material"] = 0;
+            m.root["materials"] = {
+                {{"name", "Lamp"},
+                 {"emissiveFactor", {0.5, 0, 0}},
+                 {"extensions",
+                  {{"KHR_materials_emissive_strength", {{"emissiveStrength", strength}}}}}}};
+        });
+    };
+    EXPECT_EQ(emission(1.9e15), "");
+    EXPECT_EQ(emission(2.1e15), "a.gltf: material \"Lamp\" emits more than 1e15 cd/m2");
+    const auto light = [](const char* type, double intensity) {
+        return fault_after([&](GltfMaker& m) {
+            m.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+                {{"type", type}, {"intensity", intensity}}};
+            m.root["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}}};
+        });
+    };
+    EXPECT_EQ(light("point", 1e15), "");
+    EXPECT_EQ(light("point", 3e38), "a.gltf: light \"light 1\" is brighter than 1e15 cd");
+    EXPECT_EQ(light("directional", 1e37), "a.gltf: light \"light 1\" is brighter than 1e15 lux");
+}
+
+// One coordinate of a corner, in the file and in the world.
+TEST(GltfFaults, AWorldTooWideForFloatsIsRefused) {
+    const auto corner = [](float x, double scale) {
+        return fault_after([&](GltfMaker& m) {
+            m.primitive()["attributes"]["POSITION"] = m.add_vec3({0, 0, 0, x, 0, 0, 0, x, 0});
+            m.root["nodes"][0]["scale"] = {scale, scale, scale};
+        });
+    };
+    EXPECT_EQ(corner(1e9f, 1), "");
+    EXPECT_EQ(corner(1e6f, 1000), "");
+    EXPECT_TRUE(contains(corner(1.001e9f, 1), "\"object 1\" has coordinates beyond 1e9"));
+    EXPECT_TRUE(contains(corner(1e6f, 1001), "\"object 1\" has coordinates beyond 1e9"));
+    EXPECT_TRUE(contains(corner(2e9f, 0.1), "\"object 1\" has coordinates beyond 1e9"));
+    EXPECT_TRUE(contains(fault_after([](GltfMaker& m) {
+                             m.root["cameras"] = {{{"type", "perspective"},
+                                                   {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+                             m.root["nodes"][0]["camera"] = 0;
+                             m.root["nodes"][0]["translation"] = {0, -2e9, 0};
+                             m.root["nodes"][0].erase("mesh");
+                         }),
+                         "\"camera 1\" has coordinates beyond 1e9"));
+}
+
+TEST(GltfFaults, ATinyWorldIsWarnedOf) {
+    const auto warnings = [](float scale) {
+        return TempFolder().load("a.gltf", triangle_gltf().text(), {.scale = scale}).warnings;
+    };
+    EXPECT_TRUE(warnings(1e-3f).empty());  // 0.0014 across
+    ASSERT_EQ(warnings(1e-4f).size(), 1u);
+    EXPECT_TRUE(contains(warnings(1e-4f)[0], "light is wrong below 0.001"));
+}
+
+// Many accessors may name the same bytes, so the numbers that are held against bounds have an end.
+TEST(GltfFaults, BoundsAreCheckedOfSoManyNumbersAndNoMore) {
+    GltfMaker maker = triangle_gltf();
+    maker.add_accessor(std::vector<std::uint8_t>(1 << 20, 2), "SCALAR", 5121, 1);
+    json accessor = maker.root["accessors"][1];
+    accessor["min"] = accessor["max"] = {2};
+    const auto fault_after_right_ones = [&](std::uint64_t numbers) {
+        maker.root["accessors"] = {maker.root["accessors"][0]};
+        for (std::uint64_t n = 0; n < numbers; n += 1 << 20)
+            maker.root["accessors"].push_back(accessor);
+        maker.root["accessors"].push_back(accessor);
+        maker.root["accessors"].back()["max"] = {1};
+        return fault(maker);
+    };
+    EXPECT_TRUE(contains(fault_after_right_ones(0), "not within its min and max"));
+    EXPECT_EQ(fault_after_right_ones(kMostCheckedNumbers), "");
 }
 
 TEST(GltfFaults, FilesOutsideTheFolderAreRefused) {

@@ -35,16 +35,6 @@ TEST(ImageFile, AnExrFileKeepsEveryFloat) {
     EXPECT_EQ(read.pixels, image.pixels);
 }
 
-TEST(ImageFile, AnExrFileOfHalvesKeepsElevenBitsAndNoInfinity) {
-    const TempFolder folder;
-    Image image = gradient(4, 4);
-    image.at(0, 0) = Rgb(1e6f, 1000.3f, 0);
-    write_exr(folder.path() / "a.exr", image, ExrDepth::half);
-    const Image read = read_image(folder.path() / "a.exr");
-    EXPECT_EQ(read.at(0, 0).r, 65504.0f);
-    EXPECT_NEAR(read.at(0, 0).g, 1000.3f, 0.5f);
-}
-
 TEST(ImageFile, APngFileKeepsEncodedValuesAndIsReadBackLinear) {
     const TempFolder folder;
     Image image(3, 1);
@@ -94,18 +84,51 @@ TEST(ImageFile, CutPicturesAreRefused) {
         EXPECT_NE(fault_of([&] { read_image(folder.write("c.exr", exr.substr(0, n))); }), "") << n;
 }
 
-TEST(ImageFile, PicturesThatAreTooLargeAreRefusedBeforeTheyAreDecoded) {
+// A PNG file that says to be `width` x `height`. These are at bytes 16 and 20, and the checksum of
+// bytes 12 to 28 is at 29 (PNG specification, 5.5 and annex D).
+std::string png_of(std::uint32_t width, std::uint32_t height) {
     const TempFolder folder;
     folder.write_picture("p.png");
     std::string png = read_text(folder.path() / "p.png");
-    // Width and height are at bytes 16 and 20, the checksum at 29: of 32768 x 1, made beforehand.
-    png.replace(16, 8, std::string("\x00\x00\x80\x00\x00\x00\x00\x01", 8));
-    EXPECT_NE(fault_of([&] { read_texture(as_bytes(png), "p"); }), "");
+    const auto put = [&](std::size_t at, std::uint32_t value) {
+        for (int i = 0; i < 4; ++i) png[at + i] = static_cast<char>(value >> (24 - 8 * i));
+    };
+    put(16, width);
+    put(20, height);
+    std::uint32_t crc = 0xffff'ffff;
+    for (std::size_t i = 12; i < 29; ++i) {
+        crc ^= static_cast<std::uint8_t>(png[i]);
+        for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb8'8320 : 0);
+    }
+    put(29, ~crc);
+    return png;
+}
+
+TEST(ImageFile, PicturesThatAreTooLargeAreRefusedBeforeTheyAreDecoded) {
+    const TempFolder folder;
+    const auto too_large = [](const std::string& fault) {
+        return fault.find("too large") != std::string::npos;
+    };
+    const auto as_texture = [&](std::uint32_t width, std::uint32_t height) {
+        return fault_of([&] { read_texture(as_bytes(png_of(width, height)), "p"); });
+    };
+    const auto as_picture = [&](std::uint32_t width, std::uint32_t height) {
+        const auto file = folder.write("p.png", png_of(width, height));
+        return fault_of([&] { read_image(file); });
+    };
+    EXPECT_EQ(as_texture(2, 1), "");  // the checksum is right
+    EXPECT_TRUE(too_large(as_texture(32768, 1)));
+    EXPECT_TRUE(too_large(as_texture(16384, 4097)));
+    EXPECT_TRUE(too_large(as_picture(16385, 1)));
+    EXPECT_TRUE(too_large(as_picture(8192, 4097)));
+    // As large as render writes: it is another fault that so few bytes are not so many pixels.
+    EXPECT_TRUE(as_picture(8192, 4096).find("PNG") != std::string::npos);
+    EXPECT_FALSE(too_large(as_picture(8192, 4096)));
+
     std::string jpeg = *decode_data_uri("data:image/jpeg;base64," + std::string(kJpegBase64), "");
     const std::size_t frame = jpeg.find("\xff\xc0");
     jpeg.replace(frame + 5, 4, "\x7f\xff\x7f\xff");
-    EXPECT_NE(fault_of([&] { read_texture(as_bytes(jpeg), "j"); }).find("too large"),
-              std::string::npos);
+    EXPECT_TRUE(too_large(fault_of([&] { read_texture(as_bytes(jpeg), "j"); })));
 }
 
 TEST(ImageFile, MutatedPicturesAreReadOrRefused) {
@@ -150,6 +173,31 @@ TEST(ImageFile, AnUnwritableTargetIsToldBeforehandAndNothingIsLost) {
     write_png(kept, gradient(2, 2));
     EXPECT_EQ(read_image(kept).width, 2);
     EXPECT_NE(fault("/proc/a.png"), "");
+}
+
+// What is replaced keeps its permissions and stays where it is, behind whatever link.
+TEST(ImageFile, AReplacedFileKeepsItsPlaceAndItsPermissions) {
+    const TempFolder folder;
+    const auto kept = folder.write("real/kept.png", "old");
+    const auto link = folder.path() / "link.png";
+    std::filesystem::create_symlink(kept, link);
+    using std::filesystem::perms;
+    std::filesystem::permissions(kept, perms::owner_read | perms::owner_write);
+    write_png(link, gradient(3, 2));
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_EQ(read_image(kept).width, 3);
+    EXPECT_EQ(std::filesystem::status(kept).permissions(), perms::owner_read | perms::owner_write);
+    for (const char* place : {"real", "."})
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path() / place))
+            EXPECT_NE(entry.path().filename().string()[0], '.') << "left behind";
+}
+
+TEST(ImageFile, ANameAsLongAsTheSystemAllowsCanBeWritten) {
+    const TempFolder folder;
+    const auto name = [](std::size_t length) { return std::string(length - 4, 'a') + ".png"; };
+    EXPECT_EQ(fault_of([&] { check_writable(folder.path() / name(255)); }), "");
+    write_png(folder.path() / name(255), gradient(2, 2));
+    EXPECT_NE(fault_of([&] { check_writable(folder.path() / name(256)); }), "");
 }
 
 TEST(ImageFile, AFileThatIsNoPictureIsRefused) {

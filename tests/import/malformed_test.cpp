@@ -13,7 +13,8 @@ namespace {
 using namespace malformed;
 
 TEST(Malformed, EachFileIsAcceptedOrRefusedAsTheTableSays) {
-    if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << "the collection is not here";
+    if (!std::filesystem::exists(kFolder))
+        GTEST_SKIP() << "the malformed collection is not in " << kFolder;
     for (const Expectation& expected : kExpected) {
         const auto file = kFolder / expected.file;
         ASSERT_TRUE(std::filesystem::exists(file)) << expected.file;
@@ -25,7 +26,8 @@ TEST(Malformed, EachFileIsAcceptedOrRefusedAsTheTableSays) {
 }
 
 TEST(Malformed, TheTableNamesEverySceneFileOfTheCollection) {
-    if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << "the collection is not here";
+    if (!std::filesystem::exists(kFolder))
+        GTEST_SKIP() << "the malformed collection is not in " << kFolder;
     std::set<std::string> named;
     for (const Expectation& expected : kExpected) named.insert(expected.file);
     for (const auto& entry : std::filesystem::recursive_directory_iterator(kFolder)) {
@@ -38,7 +40,8 @@ TEST(Malformed, TheTableNamesEverySceneFileOfTheCollection) {
 
 // The table's only departures from the validator are the judgements that are explained in it.
 TEST(Malformed, TheTableAgreesWithTheValidator) {
-    if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << "the collection is not here";
+    if (!std::filesystem::exists(kFolder))
+        GTEST_SKIP() << "the malformed collection is not in " << kFolder;
     for (const Expectation& expected : kExpected) {
         const auto report = kFolder / (std::string(expected.file) + ".report.json");
         if (!std::filesystem::exists(report)) continue;

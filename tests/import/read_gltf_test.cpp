@@ -209,6 +209,14 @@ TEST(ReadGltf, SparseAccessorsReplaceElementsOfADenseOneOrOfZeros) {
     maker.root["accessors"][0]["sparse"]["indices"]["bufferView"] = far;
     EXPECT_EQ(fault_of_file(folder, "a.gltf", maker.text()),
               "a.gltf: accessors[0].sparse.indices: element 9 is not there");
+
+    auto& sparse = maker.root["accessors"][0]["sparse"];
+    sparse["count"] = 2;
+    sparse["values"]["bufferView"] = maker.add_vec3({0, 1, 0, 5, 0, 0});
+    sparse["indices"]["bufferView"] = maker.add_accessor<std::uint8_t>({2, 1}, "SCALAR", 5121, 1);
+    EXPECT_EQ(
+        fault_of_file(folder, "a.gltf", maker.text()),
+        "a.gltf: accessors[0].sparse.indices: element 1 does not come after the one before it");
 }
 
 TEST(ReadGltf, QuantizedPositionsNeedTheirExtension) {
@@ -354,11 +362,34 @@ TEST(ReadGltf, WhatIsLeftOutIsSaidOnce) {
 }
 
 TEST(ReadGltf, AnObjectScaledToNothingIsLeftOut) {
-    GltfMaker maker = triangle_gltf();
-    maker.root["nodes"].push_back({{"mesh", 0}, {"scale", {1, 0, 1}}});
+    for (const double scale : {0.0, 1e-30, 1e-9}) {
+        GltfMaker maker = triangle_gltf();
+        maker.root["nodes"].push_back({{"mesh", 0}, {"scale", {1, scale, 1}}});
+        const Scene scene = TempFolder().load("a.gltf", maker.text());
+        EXPECT_EQ(scene.objects.size(), 1u);
+        EXPECT_EQ(scene.warnings.size(), 1u);
+    }
+}
+
+TEST(ReadGltf, AMaterialOfNoSurfaceMayNameImagesThatAreAbsent) {
+    GltfMaker maker =
+        textured_triangle({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    maker.root["images"][0]["uri"] = "gone.png";
+    const TempFolder folder;
+    EXPECT_NE(fault_of_file(folder, "a.gltf", maker.text()).find("gone.png"), std::string::npos);
+    maker.root["nodes"][0]["scale"] = {0, 0, 0};
+    EXPECT_EQ(fault_of_file(folder, "a.gltf", maker.text()), "");
+}
+
+TEST(ReadGltf, NormalMapsAreLeftOutWithOneWarning) {
+    GltfMaker maker = textured_triangle({{"normalTexture", {{"index", 0}}}});
+    json second = maker.primitive();
+    second["material"] = 1;
+    maker.root["materials"].push_back(maker.root["materials"][0]);
+    maker.root["meshes"][0]["primitives"].push_back(second);
     const Scene scene = TempFolder().load("a.gltf", maker.text());
-    EXPECT_EQ(scene.objects.size(), 1u);
-    EXPECT_EQ(scene.warnings.size(), 1u);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("materials[0].normalTexture: normal maps"), std::string::npos);
 }
 
 }  // namespace

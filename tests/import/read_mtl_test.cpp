@@ -118,6 +118,98 @@ TEST(ReadMtl, AnAbsentOrBrokenMapIsRefusedOnlyWhereASurfaceNeedsIt) {
     }
 }
 
+// What stands behind a # may be a comment or, as in "Material #25", part of a name.
+TEST(ReadMtl, NamesMayBeFollowedByCommentsAndHoldNumberSigns) {
+    const TempFolder folder;
+    folder.write_picture("p.png");
+    folder.write_picture("p #2.png");
+    folder.write("m.mtl",
+                 "\xef\xbb\xbfnewmtl m\nKd 1 0 0\nmap_Kd p.png # wood\n"
+                 "newmtl Material #25\nKd 0 1 0\nmap_Kd p #2.png\n");
+    const Scene scene = folder.load("a.obj",
+                                    "mtllib m.mtl # ours\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                    "usemtl m # red\nf 1 2 3\nusemtl Material #25\nf 1 2 3\n");
+    EXPECT_TRUE(scene.warnings.empty());
+    ASSERT_EQ(scene.materials.size(), 2u);
+    EXPECT_EQ(scene.materials[0].base_color, Rgb(1, 0, 0));
+    EXPECT_EQ(scene.materials[1].base_color, Rgb(0, 1, 0));
+    ASSERT_EQ(scene.textures.size(), 2u);
+    EXPECT_EQ(scene.textures[1].name, "p #2.png");
+}
+
+// A surface needs a material once it has a polygon with an area.
+TEST(ReadMtl, AMaterialOfNoSurfaceMayNameMapsThatAreAbsent) {
+    const TempFolder folder;
+    folder.write("m.mtl", "newmtl gone\nmap_Kd gone.png\nnewmtl m\nKd 1 1 1\n");
+    EXPECT_NO_THROW(folder.load("a.obj", square("mtllib m.mtl\nusemtl gone")));
+    EXPECT_NO_THROW(folder.load("a.obj", square("mtllib m.mtl") + "usemtl gone\nf 1 2 1\n"));
+    EXPECT_NE(fault_of_file(folder, "a.obj", square("mtllib m.mtl") + "usemtl gone\nf 1 2 3\n")
+                  .find("gone.png"),
+              std::string::npos);
+    EXPECT_TRUE(folder.load("a.obj", square("mtllib m.mtl\nusemtl absent")).warnings.empty());
+}
+
+// A definition that comes later is of those who come after it.
+TEST(ReadMtl, AMaterialDefinedAgainLeavesEarlierSurfacesAsTheyWere) {
+    const TempFolder folder;
+    folder.write_picture("p.png");
+    folder.write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Kd p.png\n");
+    folder.write("n.mtl", "newmtl m\nKd 0 1 0\n");
+    const Scene scene =
+        folder.load("a.obj", square("mtllib m.mtl") + "mtllib n.mtl\nusemtl m\nf 1/1 2/2 3/3\n");
+    ASSERT_EQ(scene.materials.size(), 2u);
+    EXPECT_TRUE(scene.materials[0].base_color_texture.used());
+    EXPECT_FALSE(scene.materials[1].base_color_texture.used());
+    EXPECT_EQ(scene.materials[1].base_color, Rgb(0, 1, 0));
+}
+
+TEST(ReadMtl, BumpMapsAreLeftOutWithOneWarning) {
+    const TempFolder folder;
+    folder.write("m.mtl", "newmtl m\nbump b.png\nnewmtl n\nmap_Bump -bm 1 b.png\nnorm n.png\n");
+    const Scene scene = folder.load("a.obj", square("mtllib m.mtl"));
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("m.mtl:2: bump"), std::string::npos);
+}
+
+TEST(ReadMtl, LightTooBrightToSquareIsRefusedByName) {
+    const TempFolder folder;
+    folder.write_picture("p.png");
+    const auto fault = [&](const std::string& properties) {
+        folder.write("m.mtl", "newmtl m\n" + properties);
+        return fault_of_file(folder, "a.obj", square("mtllib m.mtl"));
+    };
+    EXPECT_EQ(fault("Ke 0 1e15 0\n"), "");
+    for (const std::string bright :
+         {"Ke 0 1.1e15 0\n", "Ke 3e38\n", "Ke 1\nmap_Ke -mm 0 1e16 p.png\n"})
+        EXPECT_EQ(fault(bright), "a.obj: material \"m\" emits more than 1e15 cd/m2");
+}
+
+// Those who put a file into the folder do not choose what else is read.
+TEST(ReadMtl, ALinkThatLeadsOutOfTheFolderIsRefused) {
+    const TempFolder folder;
+    folder.write_picture("p.png");
+    folder.write_picture("scene/real.png");
+    std::filesystem::create_symlink("../p.png", folder.path() / "scene/out.png");
+    std::filesystem::create_symlink("real.png", folder.path() / "scene/in.png");
+    std::filesystem::create_symlink("..", folder.path() / "scene/up");
+    const auto fault = [&](const std::string& map) {
+        folder.write("scene/m.mtl", "newmtl m\nmap_Kd " + map + "\n");
+        return fault_of_file(folder, "scene/a.obj", square("mtllib m.mtl"));
+    };
+    EXPECT_EQ(fault("in.png"), "");
+    for (const char* map : {"out.png", "up/p.png"})
+        EXPECT_NE(fault(map).find("leads out of the scene's folder"), std::string::npos) << map;
+}
+
+// A link to a scene is that scene, with what lies beside it there.
+TEST(ReadMtl, ASceneThatIsALinkNamesFilesFromWhereItReallyIs) {
+    const TempFolder folder;
+    folder.write("real/m.mtl", "newmtl m\nKd 1 0 0\n");
+    folder.write("real/a.obj", square("mtllib m.mtl"));
+    std::filesystem::create_symlink("real/a.obj", folder.path() / "link.obj");
+    EXPECT_TRUE(load_scene(folder.path() / "link.obj").warnings.empty());
+}
+
 TEST(ReadMtl, FaultsNameTheLineOfTheLibrary) {
     const TempFolder folder;
     const auto fault = [&](const std::string& properties) {
@@ -126,7 +218,7 @@ TEST(ReadMtl, FaultsNameTheLineOfTheLibrary) {
     };
     EXPECT_EQ(fault("Kd 1 x 1\n"), "m.mtl:2: Kd: \"x\" is not a number");
     EXPECT_EQ(fault("\nKd 1 1\n"), "m.mtl:3: Kd is missing");
-    EXPECT_EQ(fault("Ke nan\n"), "m.mtl:2: Ke: \"nan\" is not a number");
+    EXPECT_EQ(fault("Ke nan\n"), "m.mtl:2: Ke: \"nan\" is not finite");
     EXPECT_EQ(fault("Kd spectral f.rfl\n"), "m.mtl:2: Kd spectral is not supported");
     EXPECT_EQ(fault("map_Kd\n"), "m.mtl:2: a map without the name of a file");
 }

@@ -85,6 +85,24 @@ TEST(ReadObj, LineEndsContinuationsCommentsAndBlanksDoNotMatter) {
     EXPECT_EQ(scene.meshes[0].primitives.size(), 1u);
 }
 
+// However a line of comment ends, the next one counts.
+TEST(ReadObj, ACommentEndsWithItsLine) {
+    for (const std::string comment :
+         {"# C:\\rooms\\\n", "s 1 # half \\\n", "s \\\n1 # half \\\n"}) {
+        const Scene scene =
+            TempFolder().load("a.obj", comment + std::string(kSquare) + "f 1 2 3 4\n");
+        EXPECT_EQ(scene.meshes.at(0).positions[0], Vec3(0)) << comment;
+        EXPECT_TRUE(scene.warnings.empty()) << comment;
+    }
+}
+
+TEST(ReadObj, AByteOrderMarkIsPassedOver) {
+    const std::string text = "\xef\xbb\xbf" + std::string(kSquare) + "f 1 2 3 4\n";
+    const Scene scene = TempFolder().load("a.obj", text);
+    EXPECT_EQ(scene.meshes.at(0).positions[0], Vec3(0));
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
 TEST(ReadObj, AFaceMayComeBeforeItsPoints) {
     EXPECT_EQ(TempFolder().load("a.obj", "f 1 2 3\n" + std::string(kSquare)).objects.size(), 1u);
 }

@@ -52,7 +52,7 @@ constexpr Expectation kExpected[] = {
 };
 
 TEST(RealScenes, HaveTheCountsThatTheirMakersGive) {
-    if (!std::filesystem::exists(kScenes)) GTEST_SKIP() << "the scenes are not here";
+    if (!std::filesystem::exists(kScenes)) GTEST_SKIP() << "the scenes are not in " << kScenes;
     for (const Expectation& expected : kExpected) {
         const Scene scene = load_scene(kScenes / expected.file);
         const Counts counts = count(scene);
@@ -68,7 +68,7 @@ TEST(RealScenes, HaveTheCountsThatTheirMakersGive) {
 }
 
 TEST(RealScenes, AllOfThemLoad) {
-    if (!std::filesystem::exists(kScenes)) GTEST_SKIP() << "the scenes are not here";
+    if (!std::filesystem::exists(kScenes)) GTEST_SKIP() << "the scenes are not in " << kScenes;
     std::size_t loaded = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(kScenes)) {
         const std::string name = entry.path().lexically_relative(kScenes).string();
@@ -88,7 +88,7 @@ TEST(RealScenes, AllOfThemLoad) {
 }
 
 TEST(RealScenes, TheCornellBoxKeepsItsColoursAndItsLamp) {
-    if (!std::filesystem::exists(kScenes)) GTEST_SKIP() << "the scenes are not here";
+    if (!std::filesystem::exists(kScenes)) GTEST_SKIP() << "the scenes are not in " << kScenes;
     const Scene scene = load_scene(kScenes / "cornell_mcguire/CornellBox-Original.obj");
     EXPECT_TRUE(has_light(scene));
     for (const Object& object : scene.objects)

@@ -100,7 +100,21 @@ TEST(HasLight, NeedsALampOrAnEmissiveSurfaceThatIsShown) {
     EXPECT_TRUE(has_light(scene));
     scene.objects.clear();
     EXPECT_FALSE(has_light(scene));  // no object shows it
-    scene.lights.push_back({.intensity = Rgb(1)});
+    scene.lights.push_back({.intensity = Rgb(0)});
+    EXPECT_FALSE(has_light(scene));  // the lamp is off
+    scene.lights.push_back({.intensity = Rgb(0, 0, 1)});
+    EXPECT_TRUE(has_light(scene));
+}
+
+TEST(HasLight, NeedsATextureThatIsNotBlackWhereThereIsOne) {
+    Scene scene = one_square();
+    scene.materials[0].emission = Rgb(1, 0, 0);
+    scene.textures = {{.width = 1, .height = 2, .texels = {{0, 0, 0, 255}, {0, 0, 0, 255}}}};
+    scene.materials[0].emission_texture.texture = TextureId{0};
+    EXPECT_FALSE(has_light(scene));
+    scene.textures[0].texels[1] = {0, 255, 0, 255};  // and red emission: black
+    EXPECT_FALSE(has_light(scene));
+    scene.textures[0].texels[1] = {1, 0, 0, 255};
     EXPECT_TRUE(has_light(scene));
 }
 

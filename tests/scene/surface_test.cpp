@@ -110,6 +110,28 @@ TEST(Surface, BaseColorIsAProduct) {
     EXPECT_NEAR(color.a, 0.1f, 1e-6f);
 }
 
+// Opaque surfaces stop all, masked ones all or nothing at the cutoff, blended ones their alpha.
+TEST(Surface, OpacityFollowsTheAlphaMode) {
+    Scene scene;
+    tiny::add_quad(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, add_material(scene, Rgb(1)));
+    const auto found = [&](AlphaMode mode, float alpha) {
+        scene.materials[0].alpha_mode = mode;
+        scene.materials[0].alpha = alpha;
+        return opacity(scene, {ObjectId(0), 0, 0.5f, 0.5f});
+    };
+    EXPECT_EQ(found(AlphaMode::opaque, 0.25f), 1);
+    EXPECT_EQ(found(AlphaMode::blend, 0.25f), 0.25f);
+    EXPECT_EQ(found(AlphaMode::mask, 0.25f), 0);
+    EXPECT_EQ(found(AlphaMode::mask, 0.5f), 1);
+}
+
+// Vectors whose squares are no floats are brought to unit length all the same.
+TEST(Surface, NormalizesAnyLength) {
+    for (const float length : {1e-37f, 1e-25f, 1e-10f, 1.0f, 1e25f, 1e37f})
+        expect_near(safe_normalize(length * Vec3(3, 0, -4), Vec3(0)), {0.6f, 0, -0.8f});
+    expect_near(safe_normalize(Vec3(0), {1, 0, 0}), {1, 0, 0});
+}
+
 // Emission leaves the front only, unless the material emits backward.
 TEST(Surface, EmissionHasASide) {
     Scene scene;
