@@ -64,12 +64,17 @@ SeenRow refine_row(const RayCaster& rays, const View& view, int y, const SeenRow
                    const std::vector<std::vector<CentreHit>>& centres, float footprint, Aov aov) {
     SeenRow row;
     row.background = coarse.background;
+    std::vector<char> outlined(view.width());
+    for (int x = 0; x < view.width(); ++x)
+        outlined[x] = needs_more_rays(centres, x, y, footprint) ? 1 : 0;
+    const std::vector<char> thin = more_within(rays, view, y, centres[y], footprint, outlined);
+
     auto piece = coarse.pieces.begin();
     for (int x = 0; x < view.width(); ++x) {
         const CentreHit& centre = centres[y][x];
         const Neighbours near = centre.textured ? on_same_primitive(centres, x, y) : Neighbours{};
         const bool cornered = centre.textured && !(near.beside && near.below);
-        const bool more = cornered || needs_more_rays(centres, x, y, footprint);
+        const bool more = cornered || outlined[x] || thin[x];
         if (more) see_pixel(rays, view, x, y, touches_light(centres, x, y) ? 8 : 4, aov, row);
         for (; piece != coarse.pieces.end() && piece->x == static_cast<std::uint32_t>(x); ++piece) {
             if (more) continue;

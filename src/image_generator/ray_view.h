@@ -30,7 +30,8 @@ struct RayViewSettings {
 
 /// The fragments that `view` shows, each on the root patch that holds it (made if new); attach()
 /// hands them down to the leaves. Single-sided faces are passed from behind; blended surfaces are
-/// composited front to back. Marks in `open_sides` what was seen, unless it is null.
+/// composited front to back, the nearest kMostLayers (rays/ray_caster.h) on a ray's way; those
+/// behind them do not show. Marks in `open_sides` what was seen, unless it is null.
 IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
                   const RayViewSettings& settings, OpenSides* open_sides);
 

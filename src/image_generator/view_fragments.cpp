@@ -7,13 +7,20 @@
 namespace chiaro {
 namespace {
 
-// A ray on its way through surfaces that let the camera look on: what part of the pixel it still
-// is.
+// A ray of the camera's, and what part of the pixel it is.
 struct Looking {
     Ray ray;
     std::uint32_t x = 0;
     float part = 1;
 };
+
+// Place `i` of side x side in a pixel, on a rotated grid: as many different heights and widths as
+// places, so that edges near the axes are smooth too.
+Vec2 place_in_pixel(int i, int side) {
+    const auto n = static_cast<float>(side);
+    const auto a = static_cast<float>(i % side), b = static_cast<float>(i / side);
+    return {(a + (b + 0.5f) / n) / n, (b + (a + 0.5f) / n) / n};
+}
 
 // What a ray meets on its way.
 struct Seen {
@@ -22,42 +29,30 @@ struct Seen {
     Vec3 position;
 };
 
-constexpr int kMostLayers = 32;
+constexpr float kLeastPart = 1.0f / 512;  // of a ray: what is behind it is not missed
 
 // Follows rays until they are stopped, and tells `see(looking, hit, seen, part)` of each surface
-// that shows; `part` is what of the pixel it takes.
+// that shows, ray by ray and front to back; `part` is what of the pixel it takes.
 template <typename See>
-void look(const RayCaster& rays, std::vector<Looking> looking, const See& see) {
+void look(const RayCaster& rays, std::span<const Looking> looking, const See& see) {
     const Scene& scene = rays.scene();
-    std::vector<Ray> now;
-    std::vector<Hit> hits;
-    for (int layer = 0; layer < kMostLayers && !looking.empty(); ++layer) {
-        now.clear();
-        for (const Looking& l : looking) now.push_back(l.ray);
-        hits.resize(now.size());
-        rays.intersect_coherent(now, hits, RayKind::layers);
+    std::vector<Ray> cast;
+    for (const Looking& l : looking) cast.push_back(l.ray);
+    std::vector<LayerHit> layers;
+    rays.intersect_layers(cast, layers);
 
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < looking.size(); ++i) {
-            if (!hits[i]) continue;
-            Looking on = looking[i];
-            const SurfacePoint& point = hits[i].point;
-            const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
-            const MaterialId id = mesh.primitives[point.primitive].material;
-            const Material& material = scene.material(id);
-            const Seen at = {id, material, on.ray.origin + hits[i].t * on.ray.direction};
-            float part = 0;
-            if (hits[i].front || material.double_sided) {
-                const bool blended = material.alpha_mode == AlphaMode::blend;
-                part = on.part * (blended ? base_color(scene, hits[i].point).a : 1.0f);
-                if (part > 0) see(on, hits[i], at, part);
-            }
-            on.part -= part;
-            if (on.part < 1.0f / 512) continue;
-            on.ray.t_min = hits[i].t * (1 + 4e-7f) + RayCaster::offset(at.position);
-            looking[kept++] = on;
-        }
-        looking.resize(kept);
+    float left = 1;  // of the ray
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const auto& [ray, hit] = layers[i];
+        if (i == 0 || layers[i - 1].ray != ray) left = 1;
+        if (left < kLeastPart) continue;
+        const Mesh& mesh = scene.mesh_of(scene.objects[index_of(hit.point.object)]);
+        const MaterialId id = mesh.primitives[hit.point.primitive].material;
+        const Looking& from = looking[ray];
+        const Seen at = {id, scene.material(id), from.ray.origin + hit.t * from.ray.direction};
+        const float part = left * opacity(scene, hit.point);
+        see(from, hit, at, from.part * part);
+        left -= part;
     }
 }
 
@@ -100,55 +95,80 @@ SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
         looking[x] = {view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f),
                       static_cast<std::uint32_t>(x), 1};
 
-    look(rays, std::move(looking),
-         [&](const Looking& l, const Hit& hit, const Seen& at, float part) {
-             row.pieces.push_back(
-                 {l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)});
-             const Material& m = at.material;
-             if (aov == Aov::radiance && m.emissive())
-                 row.background[l.x] += part * emission(scene, hit.point, hit.front);
-             CentreHit& centre = centres[l.x];
-             if (centre.object != ObjectId::none) return;
-             centre = {hit.point.object,
-                       at.id,
-                       hit.normal,
-                       at.position,
-                       hit.t,
-                       hit.point,
-                       m.base_color_texture.used(),
-                       m.emissive(),
-                       m.see_through() || m.emission_texture.used()};
-         });
-    // Layers were seen one after the other; a pixel's pieces belong together.
-    std::stable_sort(row.pieces.begin(), row.pieces.end(),
-                     [](const SeenPiece& a, const SeenPiece& b) { return a.x < b.x; });
+    look(rays, looking, [&](const Looking& l, const Hit& hit, const Seen& at, float part) {
+        row.pieces.push_back({l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)});
+        const Material& m = at.material;
+        if (aov == Aov::radiance && m.emissive())
+            row.background[l.x] += part * emission(scene, hit.point, hit.front);
+        CentreHit& centre = centres[l.x];
+        if (centre.object != ObjectId::none) return;
+        centre = {hit.point.object,
+                  at.id,
+                  hit.normal,
+                  at.position,
+                  hit.t,
+                  hit.point,
+                  m.base_color_texture.used(),
+                  m.emissive(),
+                  m.see_through() || m.emission_texture.used()};
+    });
     return row;
+}
+
+std::vector<char> more_within(const RayCaster& rays, const View& view, int y,
+                              std::span<const CentreHit> centres, float footprint,
+                              std::span<const char> known) {
+    constexpr int kSide = 2;
+    std::vector<Ray> scouts;
+    std::vector<std::uint32_t> pixels;
+    for (std::uint32_t x = 0; x < centres.size(); ++x) {
+        if (known[x]) continue;
+        for (int i = 0; i < kSide * kSide; ++i) {
+            const Vec2 at = place_in_pixel(i, kSide);
+            scouts.push_back(view.ray(static_cast<float>(x) + at.x, static_cast<float>(y) + at.y));
+            pixels.push_back(x);
+        }
+    }
+    std::vector<Hit> hits(scouts.size());
+    rays.intersect_coherent(scouts, hits, RayKind::camera);
+
+    std::vector<char> more(centres.size(), 0);
+    const Scene& scene = rays.scene();
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        CentreHit found;
+        if (hits[i]) {
+            const SurfacePoint& point = hits[i].point;
+            found.object = point.object;
+            found.material = scene.mesh_of(scene.objects[index_of(point.object)])
+                                 .primitives[point.primitive]
+                                 .material;
+            found.normal = hits[i].normal;
+            found.position = scouts[i].origin + hits[i].t * scouts[i].direction;
+            found.distance = hits[i].t;
+        }
+        if (outline_between(centres[pixels[i]], found, footprint)) more[pixels[i]] = 1;
+    }
+    return more;
 }
 
 void see_pixel(const RayCaster& rays, const View& view, int x, int y, int side, Aov aov,
                SeenRow& row) {
-    // A rotated grid: as many different heights and widths as rays, so that edges near the axes are
-    // smooth too.
     std::vector<Looking> looking(side * side);
-    const auto n = static_cast<float>(side);
     for (int i = 0; i < side * side; ++i) {
-        const auto a = static_cast<float>(i % side), b = static_cast<float>(i / side);
-        const float sx = (a + (b + 0.5f) / n) / n;
-        const float sy = (b + (a + 0.5f) / n) / n;
-        looking[i] = {view.ray(static_cast<float>(x) + sx, static_cast<float>(y) + sy),
-                      static_cast<std::uint32_t>(x), 1 / (n * n)};
+        const Vec2 at = place_in_pixel(i, side);
+        looking[i] = {view.ray(static_cast<float>(x) + at.x, static_cast<float>(y) + at.y),
+                      static_cast<std::uint32_t>(x), 1 / static_cast<float>(side * side)};
     }
     const Scene& scene = rays.scene();
     const std::size_t first = row.pieces.size();
     std::vector<float> weights;
     Rgb background(0);
-    look(rays, std::move(looking),
-         [&](const Looking& l, const Hit& hit, const Seen& at, float part) {
-             add_piece(row.pieces, weights, first,
-                       {l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)}, part);
-             if (aov == Aov::radiance && at.material.emissive())
-                 background += part * emission(scene, hit.point, hit.front);
-         });
+    look(rays, looking, [&](const Looking& l, const Hit& hit, const Seen& at, float part) {
+        add_piece(row.pieces, weights, first,
+                  {l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)}, part);
+        if (aov == Aov::radiance && at.material.emissive())
+            background += part * emission(scene, hit.point, hit.front);
+    });
     row.background[x] = background;
 }
 

@@ -37,6 +37,13 @@ struct SeenRow {
 SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
                 std::vector<CentreHit>& centres);
 
+/// For each pixel of row `y`, whether something other than what its centre's ray met shows in it:
+/// what is thinner than a pixel. Looks at four places in pixels that are not `known` to need more
+/// rays.
+std::vector<char> more_within(const RayCaster& rays, const View& view, int y,
+                              std::span<const CentreHit> centres, float footprint,
+                              std::span<const char> known);
+
 /// side x side rays through pixel (x, y), replacing what the centre's ray saw: appends to
 /// `row.pieces` and sets row.background[x].
 void see_pixel(const RayCaster& rays, const View& view, int x, int y, int side, Aov aov,

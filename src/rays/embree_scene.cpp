@@ -23,6 +23,39 @@ bool shows_something(const Scene& scene, const Object& object) {
     return object.mesh != MeshId::none && !scene.mesh_of(object).primitives.empty();
 }
 
+// Whether the normals at a primitive's corners are its own, on whichever side, or off by a
+// milliradian at most.
+bool is_flat(const Mesh& mesh, const Primitive& primitive) {
+    const auto position = [&](int corner) { return mesh.positions[primitive.corners[corner]]; };
+    const auto agrees = [&](int a, int b, int c) {
+        const Vec3 cross = glm::cross(position(b) - position(a), position(c) - position(a));
+        const Vec3 normal = safe_normalize(cross, Vec3(0));
+        for (int corner = 0; corner < primitive.corner_count(); ++corner) {
+            const Vec3 there = safe_normalize(mesh.normals[primitive.corners[corner]], Vec3(0));
+            if (!(std::abs(glm::dot(there, normal)) > 1 - 5e-7f)) return false;
+        }
+        return true;
+    };
+    if (!primitive.is_quad()) return agrees(0, 1, 2);
+    return agrees(0, 1, 3) && agrees(2, 3, 1);
+}
+
+std::vector<bool> curved_primitives(const Mesh& mesh) {
+    std::vector<bool> curved;
+    if (mesh.normals.empty()) return curved;
+    for (const Primitive& primitive : mesh.primitives) curved.push_back(!is_flat(mesh, primitive));
+    return curved;
+}
+
+// Of about one size whatever the object's, so that products with it stay floats.
+Mat3 scaled_normal_matrix(const Mat4& to_world) {
+    float largest = 0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            largest = std::max(largest, std::abs(to_world[column][row]));
+    return normal_matrix(largest > 0 ? to_world / largest : to_world);
+}
+
 const char* name_of(RTCError error) {
     switch (error) {
         case RTC_ERROR_NONE:
@@ -58,19 +91,24 @@ EmbreeScene::EmbreeScene(const Scene& scene, int threads)
 }
 
 void EmbreeScene::build(const Scene& scene) {
+    any_single_sided_ = std::ranges::any_of(
+        scene.materials, [](const Material& material) { return !material.double_sided; });
+
     // A scene for each mesh that is shown; objects are instances of them.
     meshes_.resize(scene.meshes.size(), nullptr);
+    curved_.resize(scene.meshes.size());
     for (const Object& object : scene.objects)
         if (shows_something(scene, object) && meshes_[index_of(object.mesh)] == nullptr)
             build_mesh(object.mesh, scene);
 
     top_ = rtcNewScene(device_);
     rtcSetSceneBuildQuality(top_, RTC_BUILD_QUALITY_MEDIUM);
-    rtcSetSceneFlags(top_, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(top_, scene_flags());
     objects_.resize(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         if (!shows_something(scene, scene.objects[i])) continue;
         Instance& instance = objects_[i];
+        instance.mesh = index_of(scene.objects[i].mesh);
         instance.quad_count = scene.mesh_of(scene.objects[i]).quad_count;
         instance.geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(instance.geometry, meshes_[index_of(scene.objects[i].mesh)]);
@@ -80,6 +118,13 @@ void EmbreeScene::build(const Scene& scene) {
     }
     rtcCommitScene(top_);
     check_device("building the scene");
+}
+
+// If not robust, rays slip through the diagonals of quads and the edges that they share: one in ten
+// of those aimed there. It costs a tenth of the speed.
+RTCSceneFlags EmbreeScene::scene_flags() const {
+    return any_single_sided_ ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
+                             : RTC_SCENE_FLAG_ROBUST;
 }
 
 EmbreeScene::~EmbreeScene() {
@@ -97,10 +142,9 @@ void EmbreeScene::build_mesh(MeshId id, const Scene& scene) {
     const Mesh& mesh = scene.meshes[index_of(id)];
     RTCScene mesh_scene = rtcNewScene(device_);
     meshes_[index_of(id)] = mesh_scene;
+    curved_[index_of(id)] = curved_primitives(mesh);
     rtcSetSceneBuildQuality(mesh_scene, RTC_BUILD_QUALITY_MEDIUM);
-    // Without it rays slip through the diagonals of quads and the edges that they share: one in ten
-    // of those aimed there. It costs a tenth of the speed.
-    rtcSetSceneFlags(mesh_scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(mesh_scene, scene_flags());
 
     // A copy, padded: Embree reads 16 bytes at the last point. Quads and triangles share it.
     const std::size_t bytes = mesh.positions.size() * sizeof(Vec3);
@@ -130,8 +174,6 @@ void EmbreeScene::attach(RTCScene mesh_scene, RTCBuffer positions, const Mesh& m
                                quads ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3, mesh.primitives.data(),
                                first * sizeof(Primitive), sizeof(Primitive), count);
     if (any_see_through(mesh, scene)) {
-        filter_data_.push_back(std::make_unique<FilterData>(FilterData{&scene, first}));
-        rtcSetGeometryUserData(geometry, filter_data_.back().get());
         rtcSetGeometryIntersectFilterFunction(geometry, see_through_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, see_through_filter);
     }
@@ -143,7 +185,7 @@ void EmbreeScene::attach(RTCScene mesh_scene, RTCBuffer positions, const Mesh& m
 void EmbreeScene::place(const Scene& scene, std::size_t object) {
     Instance& instance = objects_[object];
     const Mat4& m = scene.objects[object].to_world;
-    instance.normal_matrix = normal_matrix(m);
+    instance.normal_matrix = scaled_normal_matrix(m);
     rtcSetGeometryTransform(instance.geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m[0][0]);
     rtcCommitGeometry(instance.geometry);
 

@@ -1,20 +1,25 @@
 // Embree's objects for one scene, made and released; only the files of this folder include this.
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/surface.h"
 
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
-#include <memory>
+#include <algorithm>
 #include <vector>
 
 namespace chiaro {
 
-/// What filter functions need to know of the geometry that they are called for.
-struct FilterData {
-    const Scene* scene;
-    std::uint32_t first_primitive;  // of the geometry, in its mesh
+/// A hit as Embree tells it.
+struct RawHit {
+    std::uint32_t object;
+    std::uint32_t geometry;   // of the object's mesh: 0 quads, 1 triangles
+    std::uint32_t primitive;  // of the geometry
+    float u, v, t;
+    Vec3 normal;  // object space, not of unit length
+
+    bool is_quad() const { return geometry == 0; }
 };
 
 /// A device, one scene a mesh and one instance an object. The geometry that holds a mesh's quads
@@ -28,16 +33,24 @@ public:
 
     RTCScene top() const { return top_; }
 
-    /// First primitive of geometry `geometry` in the mesh of `object`.
-    std::uint32_t first_primitive(std::uint32_t object, std::uint32_t geometry) const {
-        return geometry == 0 ? 0 : objects_[object].quad_count;
+    SurfacePoint point_of(const RawHit& hit) const {
+        const std::uint32_t first = hit.is_quad() ? 0 : objects_[hit.object].quad_count;
+        return {static_cast<ObjectId>(hit.object), first + hit.primitive,
+                std::clamp(hit.u, 0.0f, 1.0f), std::clamp(hit.v, 0.0f, 1.0f)};
     }
-    /// From Embree's normals, in object space and not of unit length, to the front in world space.
-    const Mat3& normal_to_world(std::uint32_t object) const {
-        return objects_[object].normal_matrix;
+    /// Of the front side; unit, world space.
+    Vec3 normal_of(const RawHit& hit) const {
+        return safe_normalize(objects_[hit.object].normal_matrix * hit.normal, Vec3(0, 0, 1));
     }
     /// Largest coordinate in world space of the object's corners, at least its box.
     float extent(std::uint32_t object) const { return objects_[object].extent; }
+    /// True if the primitive's normals are its geometric one everywhere, or absent.
+    bool flat(const SurfacePoint& point) const {
+        const std::vector<bool>& curved = curved_[objects_[index_of(point.object)].mesh];
+        return curved.empty() || !curved[point.primitive];
+    }
+    /// True if the camera looks through any surface from behind.
+    bool any_single_sided() const { return any_single_sided_; }
 
     void set_transform(const Scene& scene, ObjectId object);
 
@@ -45,10 +58,12 @@ private:
     struct Instance {
         RTCGeometry geometry = nullptr;  // null: the object shows nothing
         Mat3 normal_matrix = Mat3(1);
+        std::size_t mesh = 0;
         std::uint32_t quad_count = 0;
         float extent = 0;
     };
     void build(const Scene& scene);
+    RTCSceneFlags scene_flags() const;
     void build_mesh(MeshId mesh, const Scene& scene);
     void release();
     void attach(RTCScene mesh_scene, RTCBuffer positions, const Mesh& mesh, const Scene& scene,
@@ -61,8 +76,9 @@ private:
     RTCDevice device_ = nullptr;
     RTCScene top_ = nullptr;
     std::vector<RTCScene> meshes_;
+    std::vector<std::vector<bool>> curved_;  // by mesh, by primitive; empty: all are flat
     std::vector<Instance> objects_;
-    std::vector<std::unique_ptr<FilterData>> filter_data_;  // Embree holds their addresses
+    bool any_single_sided_ = false;
 };
 
 }  // namespace chiaro

@@ -1,12 +1,21 @@
 #include "rays/filter.h"
 
 #include "base/random.h"
-#include "rays/embree_scene.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace chiaro {
 namespace {
+
+constexpr float kSeamWidth = 1e-4f;  // in (u, v)
+constexpr float kSamePlace = 1e-5f;  // of the distance along the ray
+
+bool double_sided(const Scene& scene, const SurfacePoint& point) {
+    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
+    return scene.material(mesh.primitives[point.primitive].material).double_sided;
+}
 
 // The whole ray decides, in world space: the same ray meets the same layers on every run, wherever
 // its packet is and whatever order Embree asks in, and rays of one fan decide independently.
@@ -17,32 +26,91 @@ float ray_number(const Ray& ray, std::uint32_t object, std::uint32_t primitive) 
     return to_unit_float(h);
 }
 
-bool stops(const CastContext& context, const Scene& scene, const SurfacePoint& point,
-           std::uint32_t lane) {
-    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
-    const Material& material = scene.material(mesh.primitives[point.primitive].material);
-    if (material.alpha_mode == AlphaMode::opaque) return true;
-    const float alpha = base_color(scene, point).a;
-    if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff;
-    if (context.kind == RayKind::layers) return alpha > 0;
-    const auto object = static_cast<std::uint32_t>(point.object);
-    return ray_number(context.rays[lane], object, point.primitive) < alpha;
+RawHit hit_of(const RTCFilterFunctionNArguments* arguments, unsigned i) {
+    const unsigned n = arguments->N;
+    RTCHitN* const hit = arguments->hit;
+    return {RTCHitN_instID(hit, n, i, 0),
+            RTCHitN_geomID(hit, n, i),
+            RTCHitN_primID(hit, n, i),
+            RTCHitN_u(hit, n, i),
+            RTCHitN_v(hit, n, i),
+            RTCRayN_tfar(arguments->ray, n, i),
+            {RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i)}};
+}
+
+bool on_seam(const RawHit& hit) {
+    const float u = hit.u, v = hit.v;
+    const float beyond = hit.is_quad() ? std::min({1 - u, 1 - v, std::abs(1 - u - v)}) : 1 - u - v;
+    return std::min({u, v, beyond}) < kSeamWidth;
+}
+
+bool same_place(float t, float other) {
+    return std::abs(t - other) <= kSamePlace * t;
+}
+
+// Whether a neighbour's side of the same seam was told of before; if not, notes this one.
+bool met_before(SeamsMet& seams, const RawHit& hit) {
+    const std::uint32_t known = std::min(seams.count, SeamsMet::kMost);
+    for (std::uint32_t i = 0; i < known; ++i)
+        if (seams.objects[i] == hit.object && same_place(hit.t, seams.t[i])) return true;
+    const std::uint32_t place = seams.count++ % SeamsMet::kMost;
+    seams.objects[place] = hit.object;
+    seams.t[place] = hit.t;
+    return false;
+}
+
+bool met_before(const LayersMet& layers, const RawHit& hit) {
+    const auto end = layers.hits.begin() + layers.count;
+    return std::any_of(layers.hits.begin(), end, [&](const RawHit& other) {
+        return other.object == hit.object && same_place(hit.t, other.t) && on_seam(other);
+    });
+}
+
+// Where there is no room, the farthest gives way.
+void add_layer(LayersMet& layers, const RawHit& hit) {
+    if (layers.count < kMostLayers) {
+        layers.hits[layers.count++] = hit;
+        return;
+    }
+    const auto nearer = [](const RawHit& a, const RawHit& b) { return a.t < b.t; };
+    RawHit& farthest = *std::max_element(layers.hits.begin(), layers.hits.end(), nearer);
+    if (hit.t < farthest.t) farthest = hit;
+}
+
+// True if the ray in `lane` goes on.
+bool passes(const PacketContext& context, const RawHit& hit, std::uint32_t lane) {
+    const Ray& ray = context.rays[lane];
+    const SurfacePoint point = context.embree_scene->point_of(hit);
+    if (context.camera && !double_sided(*context.scene, point) &&
+        !(glm::dot(context.embree_scene->normal_of(hit), ray.direction) < 0))
+        return true;
+
+    const float alpha = opacity(*context.scene, point);
+    if (alpha <= 0 || alpha >= 1) return alpha <= 0;
+    switch (context.kind) {
+        case FilterKind::chance:
+            return ray_number(ray, hit.object, point.primitive) >= alpha;
+        case FilterKind::through:
+            if (!on_seam(hit) || !met_before(context.seams[lane], hit))
+                context.through[lane] *= 1 - alpha;
+            return true;
+        case FilterKind::layers:
+            if (!on_seam(hit) || !met_before(context.layers[lane], hit))
+                add_layer(context.layers[lane], hit);
+            return true;
+    }
+    return false;
 }
 
 }  // namespace
 
 void see_through_filter(const RTCFilterFunctionNArguments* arguments) {
-    const auto& context = *reinterpret_cast<const CastContext*>(arguments->context);
-    const auto& data = *static_cast<const FilterData*>(arguments->geometryUserPtr);
+    const auto& context = *reinterpret_cast<const PacketContext*>(arguments->context);
     const unsigned n = arguments->N;
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] == 0) continue;
-        const SurfacePoint point = {static_cast<ObjectId>(RTCHitN_instID(arguments->hit, n, i, 0)),
-                                    data.first_primitive + RTCHitN_primID(arguments->hit, n, i),
-                                    RTCHitN_u(arguments->hit, n, i),
-                                    RTCHitN_v(arguments->hit, n, i)};
         const std::uint32_t lane = RTCRayN_id(arguments->ray, n, i);
-        if (!stops(context, *data.scene, point, lane)) arguments->valid[i] = 0;
+        if (passes(context, hit_of(arguments, i), lane)) arguments->valid[i] = 0;
     }
 }
 

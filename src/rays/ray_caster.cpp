@@ -5,27 +5,35 @@
 #include "rays/filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 
 namespace chiaro {
 namespace {
 
-constexpr std::size_t kPacket = 16;
 constexpr float kFarthest = 1e18f;  // Embree refuses coordinates above 1.8e18
 
-bool valid(const Ray& ray) {
-    // One comparison for all: a sum is not below the bound if any term is large, infinite or a NaN.
-    const Vec3 sum = glm::abs(ray.origin) + glm::abs(ray.direction);
-    return sum.x + sum.y + sum.z < kFarthest && ray.t_min >= 0 && ray.t_max == ray.t_max;
+// Embree's asserts would end the process, even for a lane that is off. One comparison for all: a
+// sum is not below the bound if any term is large, infinite or a NaN.
+void check_rays(const RTCRay16& packet) {
+    int finite = 1;
+    for (std::size_t i = 0; i < kPacket; ++i) {
+        const float sum = std::abs(packet.org_x[i]) + std::abs(packet.org_y[i]) +
+                          std::abs(packet.org_z[i]) + std::abs(packet.dir_x[i]) +
+                          std::abs(packet.dir_y[i]) + std::abs(packet.dir_z[i]);
+        finite &= int(sum < kFarthest) & int(packet.tnear[i] >= 0) &
+                  int(packet.tfar[i] == packet.tfar[i]);
+    }
+    check(finite != 0, "RayCaster: a ray is not finite");
 }
 
 // Rays as Embree wants them: component by component. Lanes without a ray repeat the first one,
 // since every lane must be finite, and are switched off.
-void fill_rays(RTCRay16& packet, int* active, std::span<const Ray> rays, std::size_t first) {
-    const std::size_t count = std::min(kPacket, rays.size() - first);
+void fill_rays(RTCRay16& packet, int* active, std::span<const Ray> rays) {
     for (std::size_t i = 0; i < kPacket; ++i) {
-        const Ray& ray = rays[first + (i < count ? i : 0)];
-        const bool on = i < count && ray.t_min <= ray.t_max;
+        const Ray& ray = rays[i < rays.size() ? i : 0];
+        const bool on = i < rays.size() && !(ray.t_min > ray.t_max);
         packet.org_x[i] = ray.origin.x;
         packet.org_y[i] = ray.origin.y;
         packet.org_z[i] = ray.origin.z;
@@ -36,55 +44,88 @@ void fill_rays(RTCRay16& packet, int* active, std::span<const Ray> rays, std::si
         packet.tfar[i] = on ? ray.t_max : -1.0f;
         packet.time[i] = 0;
         packet.mask[i] = 0xffff'ffffU;
-        packet.id[i] = static_cast<unsigned>(first + i);
+        packet.id[i] = static_cast<unsigned>(i);
         packet.flags[i] = 0;
         active[i] = on ? -1 : 0;
     }
+    check_rays(packet);
 }
 
-CastContext make_context(std::span<const Ray> rays, RayKind kind, bool coherent) {
-    for (const Ray& ray : rays) check(valid(ray), "RayCaster: a ray is not finite");
-    CastContext context;
+std::span<const Ray> packet_at(std::span<const Ray> rays, std::size_t first) {
+    return rays.subspan(first, std::min(kPacket, rays.size() - first));
+}
+
+struct CastSettings {
+    FilterKind kind = FilterKind::chance;
+    bool camera = false;
+    bool coherent = false;
+};
+
+PacketContext make_context(const EmbreeScene& embree, const Scene& scene,
+                           const CastSettings& settings) {
+    PacketContext context;
     rtcInitIntersectContext(&context.embree);
-    context.embree.flags =
-        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    context.rays = rays;
-    context.kind = kind;
+    context.embree.flags = settings.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                             : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    // See-through meshes have the filter of their own; single-sided ones are nothing special to any
+    // ray but the camera's.
+    if (settings.camera && embree.any_single_sided()) context.embree.filter = see_through_filter;
+    context.embree_scene = &embree;
+    context.scene = &scene;
+    context.kind = settings.kind;
+    context.camera = settings.camera;
     return context;
+}
+
+Hit make_hit(const EmbreeScene& scene, const RawHit& raw, const Ray& ray) {
+    Hit hit;
+    hit.point = scene.point_of(raw);
+    hit.t = raw.t;
+    hit.normal = scene.normal_of(raw);
+    hit.front = glm::dot(hit.normal, ray.direction) < 0;
+    return hit;
 }
 
 Hit make_hit(const EmbreeScene& scene, const RTCRayHit16& packet, std::size_t lane,
              const Ray& ray) {
     const RTCHit16& found = packet.hit;
     if (found.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return {};
-    const std::uint32_t object = found.instID[0][lane];
-    const std::uint32_t first = scene.first_primitive(object, found.geomID[lane]);
-
-    Hit hit;
-    hit.point = {static_cast<ObjectId>(object), first + found.primID[lane],
-                 std::clamp(found.u[lane], 0.0f, 1.0f), std::clamp(found.v[lane], 0.0f, 1.0f)};
-    hit.t = packet.ray.tfar[lane];
-    const Vec3 normal =
-        scene.normal_to_world(object) * Vec3(found.Ng_x[lane], found.Ng_y[lane], found.Ng_z[lane]);
-    hit.normal = normal * (1.0f / std::sqrt(glm::dot(normal, normal)));
-    hit.front = glm::dot(hit.normal, ray.direction) < 0;
-    return hit;
+    return make_hit(scene,
+                    {found.instID[0][lane],
+                     found.geomID[lane],
+                     found.primID[lane],
+                     found.u[lane],
+                     found.v[lane],
+                     packet.ray.tfar[lane],
+                     {found.Ng_x[lane], found.Ng_y[lane], found.Ng_z[lane]}},
+                    ray);
 }
 
-void intersect_packets(const EmbreeScene& scene, std::span<const Ray> rays, std::span<Hit> hits,
-                       CastContext context) {
+// The same order of what lies in one place on every run.
+bool nearer(const RawHit& a, const RawHit& b) {
+    return std::tie(a.t, a.object, a.geometry, a.primitive) <
+           std::tie(b.t, b.object, b.geometry, b.primitive);
+}
+
+void intersect_packet(RTCRayHit16& packet, std::span<const Ray> rays, PacketContext& context) {
     alignas(64) int active[kPacket];
+    fill_rays(packet.ray, active, rays);
+    for (std::size_t i = 0; i < kPacket; ++i) {
+        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    context.rays = rays.data();
+    rtcIntersect16(active, context.embree_scene->top(), &context.embree, &packet);
+}
+
+void intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, PacketContext context) {
+    check(rays.size() == hits.size(), "intersect: one hit a ray");
     RTCRayHit16 packet;
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-        fill_rays(packet.ray, active, rays, first);
-        for (std::size_t i = 0; i < kPacket; ++i) {
-            packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-            packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-        }
-        rtcIntersect16(active, scene.top(), &context.embree, &packet);
-        const std::size_t count = std::min(kPacket, rays.size() - first);
-        for (std::size_t i = 0; i < count; ++i)
-            hits[first + i] = make_hit(scene, packet, i, rays[first + i]);
+        const std::span<const Ray> some = packet_at(rays, first);
+        intersect_packet(packet, some, context);
+        for (std::size_t i = 0; i < some.size(); ++i)
+            hits[first + i] = make_hit(*context.embree_scene, packet, i, some[i]);
     }
 }
 
@@ -101,29 +142,60 @@ RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
 void RayCaster::intersect(std::span<const Ray> rays, std::span<Hit> hits, RayKind kind) const {
-    check(rays.size() == hits.size(), "intersect: one hit a ray");
-    intersect_packets(embree_->scene, rays, hits, make_context(rays, kind, false));
+    intersect_packets(rays, hits,
+                      make_context(embree_->scene, *scene_, {.camera = kind == RayKind::camera}));
 }
 
 void RayCaster::intersect_coherent(std::span<const Ray> rays, std::span<Hit> hits,
                                    RayKind kind) const {
-    check(rays.size() == hits.size(), "intersect_coherent: one hit a ray");
-    intersect_packets(embree_->scene, rays, hits, make_context(rays, kind, true));
+    intersect_packets(rays, hits,
+                      make_context(embree_->scene, *scene_,
+                                   {.camera = kind == RayKind::camera, .coherent = true}));
 }
 
-void RayCaster::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
-    check(rays.size() == blocked.size(), "occluded: one answer a ray");
-    CastContext context = make_context(rays, RayKind::transport, false);
+void RayCaster::transmittance(std::span<const Ray> rays, std::span<Rgb> through) const {
+    check(rays.size() == through.size(), "transmittance: one answer a ray");
+    PacketContext context = make_context(embree_->scene, *scene_, {.kind = FilterKind::through});
+    std::array<SeamsMet, kPacket> seams;
+    std::array<Rgb, kPacket> left;
+    context.seams = seams.data();
+    context.through = left.data();
     alignas(64) int active[kPacket];
     RTCRay16 packet;
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-        fill_rays(packet, active, rays, first);
+        const std::span<const Ray> some = packet_at(rays, first);
+        fill_rays(packet, active, some);
+        for (SeamsMet& met : seams) met.count = 0;
+        left.fill(Rgb(1));
+        context.rays = some.data();
         rtcOccluded16(active, embree_->scene.top(), &context.embree, &packet);
 
         // Embree marks a blocked ray by an infinite negative end.
-        const std::size_t count = std::min(kPacket, rays.size() - first);
-        for (std::size_t i = 0; i < count; ++i)
-            blocked[first + i] = active[i] != 0 && packet.tfar[i] == -kInfinity;
+        for (std::size_t i = 0; i < some.size(); ++i)
+            through[first + i] = packet.tfar[i] == -kInfinity ? Rgb(0) : left[i];
+    }
+}
+
+void RayCaster::intersect_layers(std::span<const Ray> rays, std::vector<LayerHit>& found) const {
+    PacketContext context = make_context(
+        embree_->scene, *scene_, {.kind = FilterKind::layers, .camera = true, .coherent = true});
+    std::array<LayersMet, kPacket> layers;
+    context.layers = layers.data();
+    found.clear();
+    RTCRayHit16 packet;
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+        const std::span<const Ray> some = packet_at(rays, first);
+        for (LayersMet& met : layers) met.count = 0;
+        intersect_packet(packet, some, context);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            const Hit last = make_hit(embree_->scene, packet, i, some[i]);
+            const auto begin = layers[i].hits.begin(), end = begin + layers[i].count;
+            std::sort(begin, end, nearer);
+            const auto ray = static_cast<std::uint32_t>(first + i);
+            for (auto layer = begin; layer != end && layer->t <= last.t; ++layer)
+                found.push_back({ray, make_hit(embree_->scene, *layer, some[i])});
+            if (last) found.push_back({ray, last});
+        }
     }
 }
 
@@ -138,6 +210,10 @@ float RayCaster::offset(Vec3 position) {
 
 float RayCaster::offset(Vec3 position, ObjectId object) const {
     return offset(position) + 1e-6f * embree_->scene.extent(static_cast<std::uint32_t>(object));
+}
+
+bool RayCaster::flat(const SurfacePoint& point) const {
+    return embree_->scene.flat(point);
 }
 
 }  // namespace chiaro

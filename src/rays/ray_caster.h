@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace chiaro {
 
@@ -20,10 +21,19 @@ struct Hit {
 };
 
 /// Which surfaces stop a ray. All stop at opaque surfaces and where a mask's alpha reaches its
-/// cutoff. A blended surface stops a `transport` ray with the probability of its alpha, decided by
-/// a hash of the ray (unbiased, and the same on every run); a `layers` ray stops at each blended
-/// surface, so that the caller can composite.
-enum class RayKind { transport, layers };
+/// cutoff; a blended surface stops one with the probability of its alpha, decided by a hash of the
+/// ray: right in the mean of many rays, and the same on every run. `camera` rays pass single-sided
+/// faces from behind.
+enum class RayKind { transport, camera };
+
+/// One of the surfaces that a ray from the eye shows.
+struct LayerHit {
+    std::uint32_t ray;
+    Hit hit;
+};
+/// Blended surfaces that one ray can show; what lies behind more of them, other than the surface
+/// that stops the ray, is left out.
+inline constexpr std::uint32_t kMostLayers = 32;
 
 /// The scene made ready for rays: one instance an object, quads as quads.
 ///
@@ -45,8 +55,14 @@ public:
     void intersect_coherent(std::span<const Ray> rays, std::span<Hit> hits,
                             RayKind kind = RayKind::transport) const;
 
-    /// 1 for each ray that is blocked between its t_min and t_max, else 0.
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+    /// What part of light gets along each ray between its t_min and t_max, a colour channel: 0 if
+    /// something stops it, else the product of what the blended surfaces in between leave (1 -
+    /// alpha), each counted once. No chance in it. Both spans are of one length.
+    void transmittance(std::span<const Ray> rays, std::span<Rgb> through) const;
+
+    /// Everything that camera rays show: the blended surfaces on the way of each, front to back,
+    /// and what stops it; also those that lie in one place. Replaces `found`, in the order of rays.
+    void intersect_layers(std::span<const Ray> rays, std::vector<LayerHit>& found) const;
 
     /// The object's `to_world` has changed: about 0.05 ms, whatever its size. Not while others
     /// cast.
@@ -58,6 +74,9 @@ public:
     /// As above at a point of `object`, whose far corners round more coarsely than `position` may
     /// tell.
     float offset(Vec3 position, ObjectId object) const;
+
+    /// True if the shading normal is the geometric one everywhere on the point's primitive.
+    bool flat(const SurfacePoint& point) const;
 
     const Scene& scene() const { return *scene_; }
 

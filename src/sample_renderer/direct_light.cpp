@@ -15,8 +15,8 @@ bool traces_ray(std::uint32_t seed, std::uint32_t replicate, std::uint32_t index
     return index % kLightSamplesPerRay == turn % kLightSamplesPerRay;
 }
 
-bool few_punctual_lights(const LitScene& lit) {
-    return lit.scene.lights.size() <= kMostExactLights;
+bool few(std::span<const std::uint32_t> lights) {
+    return lights.size() <= kMostExactLights;
 }
 
 void add_area_light_sample(const LitScene& lit, const Receiver& receiver, const Sequence& sequence,
@@ -29,21 +29,12 @@ void add_area_light_sample(const LitScene& lit, const Receiver& receiver, const 
     shadows.add(connection->shadow_ray, connection->irradiance * weight, sample % kReplicates);
 }
 
-void add_punctual_sample(const LitScene& lit, const Receiver& receiver, const Sequence& sequence,
-                         std::uint32_t sample, ShadowBatch& shadows) {
-    const auto choice = lit.choice.sample_punctual(sequence.number(sample, kLightChoice));
-    const auto connection = connect_punctual(lit, receiver, choice.punctual);
-    if (!connection) return;
-    shadows.add(connection->shadow_ray, connection->irradiance / choice.probability,
-                sample % kReplicates);
-}
-
 void add_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t replicate,
              std::uint32_t block, PathWave& wave) {
     const Vec3 direction =
         sample_receiving_cosine(receiver, sequence.sparse_pair(replicate, block, kLightDirection));
-    wave.add({receiver.origin, direction},
-             {.pdf = pdf_receiving_cosine(receiver, direction), .slot = replicate});
+    const float pdf = pdf_receiving_cosine(receiver, direction);
+    if (pdf > 0) wave.add({receiver.origin, direction}, {.pdf = pdf, .slot = replicate});
 }
 
 // Emission that the cosine-distributed rays met. Each stands for kLightSamplesPerRay samples.
@@ -67,18 +58,20 @@ void settle_rays(const LitScene& lit, const Receiver& receiver, PathWave& wave,
 }  // namespace
 
 Rgb exact_direct_light(const LitScene& lit, const Receiver& receiver, PathWave& scratch) {
-    Rgb sum(0);
-    if (!few_punctual_lights(lit)) return sum;
     scratch.shadows.clear();
-    for (int i = 0; i < static_cast<int>(lit.scene.lights.size()); ++i)
-        if (const auto connection = connect_punctual(lit, receiver, i))
-            scratch.shadows.add(connection->shadow_ray, connection->irradiance, 0);
+    for (const auto& lights : {lit.punctual.lamps(), lit.punctual.suns()}) {
+        if (!few(lights)) continue;
+        for (const std::uint32_t light : lights)
+            if (const auto connection = connect_punctual(lit, receiver, light))
+                scratch.shadows.add(connection->shadow_ray, connection->irradiance, 0);
+    }
+    Rgb sum(0);
     scratch.shadows.settle(lit.caster, {&sum, 1});
     return sum;
 }
 
 bool direct_light_is_exact(const LitScene& lit) {
-    return lit.area_lights.empty() && (few_punctual_lights(lit) || !lit.choice.any_punctual());
+    return lit.area_lights.empty() && few(lit.punctual.lamps()) && few(lit.punctual.suns());
 }
 
 void add_direct_samples(const LitScene& lit, const Receiver& receiver, std::uint32_t seed,
@@ -96,9 +89,14 @@ void add_direct_samples(const LitScene& lit, const Receiver& receiver, std::uint
         }
         settle_rays(lit, receiver, scratch, sums);
     }
-    if (!few_punctual_lights(lit) && lit.choice.any_punctual())
+    const auto add_samples = [&](const auto& connect) {
         for (std::uint32_t i = first; i < first + count; ++i)
-            add_punctual_sample(lit, receiver, sequence, i, scratch.shadows);
+            if (const auto connection = connect(lit, receiver, sequence.number(i, kLightChoice)))
+                scratch.shadows.add(connection->shadow_ray, connection->irradiance,
+                                    i % kReplicates);
+    };
+    if (!few(lit.punctual.lamps())) add_samples(connect_lamp);
+    if (!few(lit.punctual.suns())) add_samples(connect_sun);
     scratch.shadows.settle(lit.caster, sums);
 }
 

@@ -5,19 +5,18 @@
 namespace chiaro {
 namespace {
 
+Ray first_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t sample) {
+    return {receiver.origin,
+            sample_receiving_cosine(receiver, sequence.pair(sample, kFirstDirection))};
+}
+
 // One cosine-distributed ray a sample. Cosine over density is pi, which is the path's throughput.
 void start_paths(const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
                  std::uint32_t count, PathWave& wave) {
     const Sequence sequence(seed);
     wave.clear();
-    for (std::uint32_t i = first; i < first + count; ++i) {
-        wave.add(
-            {receiver.origin, sample_receiving_cosine(receiver, sequence.pair(i, kFirstDirection))},
-            {.slot = i % kReplicates,
-             .key = sample_key(seed, i),
-             .light_place = sequence.pair(i, kFirstLightPlace),
-             .light_choice = sequence.number(i, kFirstLightChoice)});
-    }
+    for (std::uint32_t i = first; i < first + count; ++i)
+        wave.add(first_ray(receiver, sequence, i), make_path(sequence, i, i % kReplicates));
 }
 
 RayCount count_inside(const OpenSides& open_sides, std::span<const Hit> hits) {
@@ -49,8 +48,11 @@ RayCount add_indirect_samples(const LitScene& lit, const OpenSides* open_sides,
 
 RayCount probe(const LitScene& lit, const OpenSides& open_sides, const Receiver& receiver,
                std::uint32_t seed, std::uint32_t count, PathWave& scratch) {
-    start_paths(receiver, seed, 0, count, scratch);
-    scratch.hits.resize(scratch.rays.size());
+    const Sequence sequence(seed);
+    scratch.clear();
+    for (std::uint32_t i = 0; i < count; ++i)
+        scratch.rays.push_back(first_ray(receiver, sequence, i));
+    scratch.hits.resize(count);
     lit.caster.intersect(scratch.rays, scratch.hits);
     return count_inside(open_sides, scratch.hits);
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "sample_renderer/path_wave.h"
-#include "sample_renderer/sequence.h"
 #include "scene/open_sides.h"
 
 namespace chiaro {

@@ -5,6 +5,21 @@
 #include <cmath>
 
 namespace chiaro {
+namespace {
+
+constexpr float kShortOfLamp = 1 - 1e-4f;  // of the way there: it may stand in a surface
+
+std::optional<LightConnection> over(std::optional<LightConnection> connection, float probability) {
+    if (connection) connection->irradiance /= probability;
+    return connection;
+}
+
+}  // namespace
+
+LitScene make_lit_scene(const Scene& scene, const RayCaster& caster,
+                        const AreaLights& area_lights) {
+    return {scene, caster, area_lights, PunctualLights(scene)};
+}
 
 Receiver make_receiver(const RayCaster& caster, ObjectId object, Vec3 position,
                        Vec3 geometric_normal, Vec3 shading_normal) {
@@ -50,7 +65,7 @@ std::optional<LightConnection> connect_area_light(const LitScene& lit, const Rec
 }
 
 std::optional<LightConnection> connect_punctual(const LitScene& lit, const Receiver& receiver,
-                                                int index) {
+                                                std::uint32_t index) {
     const PunctualLight& light = lit.scene.lights[index];
     const std::optional<PunctualArrival> found = arrival(light, receiver.position);
     if (!found || found->irradiance == Rgb(0)) return std::nullopt;
@@ -59,10 +74,48 @@ std::optional<LightConnection> connect_punctual(const LitScene& lit, const Recei
 
     LightConnection connection;
     connection.irradiance = found->irradiance * cosine;
-    connection.shadow_ray = light.kind == LightKind::directional
-                                ? Ray{receiver.origin, found->to_light}
-                                : Ray{receiver.origin, light.position - receiver.origin, 0, 1};
+    connection.shadow_ray =
+        light.kind == LightKind::directional
+            ? Ray{receiver.origin, found->to_light}
+            : Ray{receiver.origin, light.position - receiver.origin, 0, kShortOfLamp};
     return connection;
+}
+
+std::optional<LightConnection> connect_lamp(const LitScene& lit, const Receiver& receiver,
+                                            float choice) {
+    const auto chosen = lit.punctual.sample_lamp(lit_place(receiver), choice);
+    if (!chosen) return std::nullopt;
+    return over(connect_punctual(lit, receiver, chosen->light), chosen->probability);
+}
+
+std::optional<LightConnection> connect_sun(const LitScene& lit, const Receiver& receiver,
+                                           float choice) {
+    const std::span<const std::uint32_t> suns = lit.punctual.suns();
+    if (suns.empty()) return std::nullopt;
+    if (suns.size() == 1) return connect_punctual(lit, receiver, suns[0]);
+    const auto brings = [&](std::uint32_t sun) {
+        const PunctualLight& light = lit.scene.lights[sun];
+        return max_component(light.intensity) * receiving_cosine(receiver, -light.direction);
+    };
+    float sum = 0, shining = 0;
+    for (const std::uint32_t sun : suns) {
+        sum += brings(sun);
+        if (brings(sun) > 0) ++shining;
+    }
+
+    if (!(sum > 0)) return std::nullopt;
+
+    // As of the lamps, some choices are even: a brighter sun may be hidden.
+    constexpr float kEven = PunctualLights::kEvenPart;
+    LightChoice chosen = {};
+    float before = 0;
+    for (const std::uint32_t sun : suns) {
+        if (before > choice) break;
+        if (!(brings(sun) > 0)) continue;
+        chosen = {sun, kEven / shining + (1 - kEven) * brings(sun) / sum};
+        before += chosen.probability;
+    }
+    return over(connect_punctual(lit, receiver, chosen.light), chosen.probability);
 }
 
 float pdf_area_light(const LitScene& lit, const LitPlace& from, Vec3 direction, const Hit& hit) {

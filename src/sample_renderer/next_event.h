@@ -3,17 +3,23 @@
 #pragma once
 
 #include "rays/ray_caster.h"
-#include "sample_renderer/light_choice.h"
+#include "sample_renderer/punctual_lights.h"
+#include "scene/area_lights.h"
 
 namespace chiaro {
 
-/// All that light transport reads; valid while what it names is.
+/// All that light transport reads, a member for each kind of light; valid while what it names is.
 struct LitScene {
     const Scene& scene;
     const RayCaster& caster;
     const AreaLights& area_lights;
-    LightChoice choice;
+    PunctualLights punctual;
+
+    /// True if nothing shines.
+    bool dark() const { return area_lights.empty() && punctual.empty(); }
 };
+/// Build anew when the scene's punctual lights change.
+LitScene make_lit_scene(const Scene& scene, const RayCaster& caster, const AreaLights& area_lights);
 
 /// A surface point from the side that light arrives on.
 struct Receiver {
@@ -41,9 +47,12 @@ inline Vec3 mirrored(const Receiver& receiver, Vec3 w) {
 /// whole is pi on any surface and no light is lost where normals are interpolated; 0 below that
 /// plane.
 inline float receiving_cosine(const Receiver& receiver, Vec3 w) {
-    if (glm::dot(receiver.geometric_normal, w) <= 0) return 0;
-    return std::max(0.0f, glm::dot(receiver.shading_normal, w)) +
-           std::max(0.0f, glm::dot(receiver.shading_normal, mirrored(receiver, w)));
+    const float above = glm::dot(receiver.geometric_normal, w);
+    if (above <= 0) return 0;
+    const float cosine = glm::dot(receiver.shading_normal, w);
+    const float of_mirrored =
+        cosine - 2 * above * glm::dot(receiver.geometric_normal, receiver.shading_normal);
+    return std::max(0.0f, cosine) + std::max(0.0f, of_mirrored);
 }
 
 /// A direction of density receiving_cosine() / pi over solid angle; `u` in [0, 1)^2.
@@ -66,7 +75,17 @@ std::optional<LightConnection> connect_area_light(const LitScene& lit, const Rec
 
 /// Punctual light `index`; nothing if it cannot shine on the receiver.
 std::optional<LightConnection> connect_punctual(const LitScene& lit, const Receiver& receiver,
-                                                int index);
+                                                std::uint32_t index);
+
+/// One of the lamps for all (PunctualLights::sample_lamp()); nothing if that is worth nothing.
+/// `choice` in [0, 1).
+std::optional<LightConnection> connect_lamp(const LitScene& lit, const Receiver& receiver,
+                                            float choice);
+
+/// One of the suns for all, by the irradiance that each would bring; nothing if none can. `choice`
+/// in [0, 1).
+std::optional<LightConnection> connect_sun(const LitScene& lit, const Receiver& receiver,
+                                           float choice);
 
 /// Density over solid angle with which connect_area_light() takes `direction` at `from`, the
 /// lit_place() of a receiver, where a ray of that unit direction met `hit`.

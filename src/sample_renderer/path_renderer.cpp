@@ -150,17 +150,13 @@ void shade_receivers(const LitScene& lit, const OpenSides* open_sides, int threa
 
 PathRenderer::PathRenderer(const Scene& scene, const RayCaster& caster,
                            const AreaLights& area_lights, const OpenSides* open_sides, int threads)
-    : scene_(scene),
-      caster_(caster),
-      area_lights_(area_lights),
+    : lit_(make_lit_scene(scene, caster, area_lights)),
       open_sides_(open_sides),
-      threads_(threads),
-      cross_section_(cross_section(scene)) {}
+      threads_(threads) {}
 
 void PathRenderer::shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) {
-    const LitScene lit = {scene_, caster_, area_lights_, {scene_, area_lights_, cross_section_}};
-    shade_receivers(lit, open_sides_, threads_, requests, results,
-                    [&](std::size_t i) { return surface_receiver(lit, requests[i]); });
+    shade_receivers(lit_, open_sides_, threads_, requests, results,
+                    [&](std::size_t i) { return surface_receiver(lit_, requests[i]); });
 }
 
 void shade_places(const LitScene& lit, std::span<const MeterPlace> places,

@@ -11,10 +11,11 @@ namespace chiaro {
 /// Surfaces are Lambertian of their base colour on both sides. Irradiance is taken with the cosine
 /// about the shading normal, folded up where it reaches below the real plane (next_event.h).
 ///
-/// Thread: as SampleRenderer. Keeps references: the scene may be edited between calls, if the
-/// caster and the area lights are brought up to date with it. Where `open_sides` is null, nothing
-/// is buried. Of Light::total, `first_sample` counts direct samples, and the indirect ones before
-/// it are taken to have been in the same proportion.
+/// Thread: as SampleRenderer. Keeps references: objects and materials may be edited between calls,
+/// if the caster and the area lights are brought up to date with them; build anew when punctual
+/// lights change. Where `open_sides` is null, nothing is buried. Of Light::total, `first_sample`
+/// counts direct samples, and the indirect ones before it are taken to have been in the same
+/// proportion.
 class PathRenderer : public SampleRenderer {
 public:
     PathRenderer(const Scene& scene, const RayCaster& caster, const AreaLights& area_lights,
@@ -22,12 +23,9 @@ public:
     void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) override;
 
 private:
-    const Scene& scene_;
-    const RayCaster& caster_;
-    const AreaLights& area_lights_;
+    LitScene lit_;
     const OpenSides* open_sides_;
     int threads_;
-    float cross_section_;
 };
 
 /// A place in space that light is measured at, as by a lux meter: it need not lie on a surface.

@@ -1,6 +1,5 @@
 #include "sample_renderer/path_wave.h"
 
-#include "sample_renderer/sequence.h"
 #include "sample_renderer/warp.h"
 
 #include <algorithm>
@@ -17,16 +16,16 @@ struct MetSurface {
     bool emissive;
 };
 
-MetSurface describe(const LitScene& lit, const Ray& ray, const Hit& hit) {
+MetSurface describe(const LitScene& lit, const Hit& hit) {
     const Scene& scene = lit.scene;
     const Mesh& mesh = scene.mesh_of(scene.objects[index_of(hit.point.object)]);
     const Material& material = scene.material(mesh.primitives[hit.point.primitive].material);
     const Vec3 shading =
-        mesh.normals.empty() ? hit.normal : shading_normal(scene, hit.point, hit.normal);
+        lit.caster.flat(hit.point) ? hit.normal : shading_normal(scene, hit.point, hit.normal);
     const bool plain = !material.base_color_texture.used() && mesh.colors.empty();
 
     const float side = hit.front ? 1.0f : -1.0f;
-    return {make_receiver(lit.caster, hit.point.object, ray.origin + hit.t * ray.direction,
+    return {make_receiver(lit.caster, hit.point.object, surface_position(scene, hit.point),
                           side * hit.normal, side * shading),
             plain ? material.base_color : Rgb(base_color(scene, hit.point)), material.emissive()};
 }
@@ -34,25 +33,31 @@ MetSurface describe(const LitScene& lit, const Ray& ray, const Hit& hit) {
 // Emission that a ray of a path met by chance, which next event estimation at its origin may have
 // found too.
 Rgb met_emission(const LitScene& lit, const Path& path, const Ray& ray, const Hit& hit) {
-    const float pdf_light = lit.choice.probability_of_area_lights() *
-                            pdf_area_light(lit, {ray.origin, path.normal}, ray.direction, hit);
-    const float weight = path.pdf / (path.pdf + pdf_light);
-    return path.throughput * weight * emission(lit.scene, hit.point, hit.front);
+    const Rgb radiance = emission(lit.scene, hit.point, hit.front);
+    if (radiance == Rgb(0)) return radiance;
+    const float pdf_light = pdf_area_light(lit, {ray.origin, path.normal}, ray.direction, hit);
+    return path.throughput * radiance * (path.pdf / (path.pdf + pdf_light));
 }
 
-// Asks one light; `reflected` is the path's throughput after the reflection here.
-void add_next_event(const LitScene& lit, const Receiver& receiver, const Path& path, Rgb reflected,
-                    ShadowBatch& shadows) {
-    const LightChoice::Choice choice = lit.choice.sample(path.light_choice);
-    const auto connection = choice.punctual >= 0
-                                ? connect_punctual(lit, receiver, choice.punctual)
-                                : connect_area_light(lit, receiver, choice.rest, path.light_place);
-    if (!connection) return;
-    const float pdf = connection->pdf_solid_angle * choice.probability;
-    const float weight = pdf > 0 ? pdf / (pdf + connection->pdf_cosine) : 1.0f;
-    shadows.add(connection->shadow_ray,
-                reflected * connection->irradiance * (weight / (kPi * choice.probability)),
-                path.slot);
+// Asks one light of each kind: none takes samples from another, which may be hidden where it seems
+// brightest. `reflected` is the path's throughput after the reflection here.
+void add_next_events(const LitScene& lit, const Receiver& receiver, const Path& path, Rgb reflected,
+                     ShadowBatch& shadows) {
+    const Rgb brdf = reflected * (1 / kPi);
+    if (!lit.area_lights.empty()) {
+        if (const auto found =
+                connect_area_light(lit, receiver, path.light_choice, path.light_place)) {
+            const float pdf = found->pdf_solid_angle;
+            shadows.add(found->shadow_ray,
+                        brdf * found->irradiance * (pdf / (pdf + found->pdf_cosine)), path.slot);
+        }
+    }
+    if (!lit.punctual.lamps().empty())
+        if (const auto found = connect_lamp(lit, receiver, path.light_choice))
+            shadows.add(found->shadow_ray, brdf * found->irradiance, path.slot);
+    if (!lit.punctual.suns().empty())
+        if (const auto found = connect_sun(lit, receiver, path.light_choice))
+            shadows.add(found->shadow_ray, brdf * found->irradiance, path.slot);
 }
 
 // Turns the path into its next ray; false if it ends here.
@@ -64,7 +69,7 @@ bool scatter(const Receiver& receiver, Rgb reflected, BounceNumbers& numbers, Pa
     path.throughput = reflected * (1 / survival);
     path.pdf = pdf_receiving_cosine(receiver, ray.direction);
     path.normal = receiver.geometric_normal;
-    return true;
+    return path.pdf > 0;
 }
 
 }  // namespace
@@ -82,10 +87,9 @@ void ShadowBatch::add(const Ray& ray, Rgb value, std::uint32_t slot) {
 }
 
 void ShadowBatch::settle(const RayCaster& caster, std::span<Rgb> sums) {
-    blocked.resize(rays.size());
-    caster.occluded(rays, blocked);
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        if (blocked[i] == 0) sums[slots[i]] += values[i];
+    through.resize(rays.size());
+    caster.transmittance(rays, through);
+    for (std::size_t i = 0; i < rays.size(); ++i) sums[slots[i]] += through[i] * values[i];
     clear();
 }
 
@@ -113,7 +117,7 @@ void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<
             if (!hit) continue;
             Path& path = wave.paths[i];
             Ray& ray = wave.rays[i];
-            const MetSurface surface = describe(lit, ray, hit);
+            const MetSurface surface = describe(lit, hit);
 
             // Light that the surface emits.
             if (surface.emissive) {
@@ -125,13 +129,13 @@ void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<
 
             // Light that it reflects: from a light at once, from elsewhere by the next ray.
             const Rgb reflected = path.throughput * surface.albedo;
-            if (!(max_component(reflected) > 0) || lit.choice.empty()) continue;
+            if (!(max_component(reflected) > 0) || lit.dark()) continue;
             BounceNumbers numbers(path.key, bounce);
             if (bounce > 0) {
                 path.light_choice = numbers.next();
                 path.light_place = numbers.next_pair();
             }
-            add_next_event(lit, surface.receiver, path, reflected, wave.shadows);
+            add_next_events(lit, surface.receiver, path, reflected, wave.shadows);
             if (!scatter(surface.receiver, reflected, numbers, path, ray)) continue;
             wave.paths[alive] = path;
             wave.rays[alive] = ray;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sample_renderer/next_event.h"
+#include "sample_renderer/sequence.h"
 
 namespace chiaro {
 
@@ -12,17 +13,25 @@ struct Path {
     float pdf = 0;           // of the ray's direction over solid angle, for the weight of emission
     std::uint32_t slot = 0;  // which sum it adds to
     std::uint32_t key = 0;   // names its random numbers after the first hit's
-    Vec2 light_place = {};   // at the first hit
-    float light_choice = 0;
-    Vec3 normal = Vec3(0);  // LitPlace's, where the ray started; after the first hit
+    Vec2 light_place = {};   // at the first hit: where on a light,
+    float light_choice = 0;  // and which of each kind of light
+    Vec3 normal = Vec3(0);   // LitPlace's, where the ray started; after the first hit
 };
 
-/// Shadow rays on the way, and what each brings to which sum if nothing blocks it.
+/// The path of `sample` of the sequence before its first ray.
+inline Path make_path(const Sequence& sequence, std::uint32_t sample, std::uint32_t slot) {
+    return {.slot = slot,
+            .key = sequence.key(sample),
+            .light_place = sequence.pair(sample, kFirstLightPlace),
+            .light_choice = sequence.number(sample, kFirstLightChoice)};
+}
+
+/// Shadow rays on the way, and what each brings to which sum through what is in its way.
 struct ShadowBatch {
     std::vector<Ray> rays;
     std::vector<Rgb> values;
     std::vector<std::uint32_t> slots;
-    std::vector<std::uint8_t> blocked;
+    std::vector<Rgb> through;
 
     void clear();
     void add(const Ray& ray, Rgb value, std::uint32_t slot);
@@ -48,9 +57,10 @@ enum class FirstEmission { skipped, counted };
 
 /// Follows all paths of the wave to their ends and adds the radiance that each finds along its
 /// first ray, times its throughput, to sums[slot]. The first hits must be in place: the caller
-/// casts the first rays, as they are of many kinds. Two-sided Lambertian reflection; next event
-/// estimation and emission met by chance are weighted by the balance heuristic (Veach and Guibas
-/// 1995); Russian roulette with survival up to 0.98, no other bound on the number of bounces.
+/// casts the first rays, as they are of many kinds. Two-sided Lambertian reflection; each point
+/// asks one light of each kind; next event estimation and emission met by chance are weighted by
+/// the balance heuristic (Veach and Guibas 1995); Russian roulette with survival up to 0.98, no
+/// other bound on the number of bounces.
 void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<Rgb> sums);
 
 }  // namespace chiaro

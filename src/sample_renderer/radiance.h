@@ -13,18 +13,10 @@ struct RadianceSettings {
     int threads = 1;
 };
 
-/// Everything that light transport reads of a scene; all must outlive the result.
-LitScene make_lit_scene(const Scene& scene, const RayCaster& caster, const AreaLights& area_lights);
-
 /// Mean radiance that arrives along each ray, against its direction [cd/m2 a channel]; `result` has
 /// the length of `rays`. What the surface emits counts; a ray that meets nothing sees black. As a
 /// camera's, the rays pass single-sided faces from behind. The same bits on any number of threads.
 void radiance(const LitScene& lit, std::span<const Ray> rays, const RadianceSettings& settings,
               std::span<Rgb> result);
-
-/// Sends camera rays on that met the back of a single-sided face; `rays` and `hits` belong together
-/// and are left so. `t` of a hit still counts from the ray's origin.
-void pass_single_sided_backs(const Scene& scene, const RayCaster& caster, std::span<Ray> rays,
-                             std::span<Hit> hits);
 
 }  // namespace chiaro

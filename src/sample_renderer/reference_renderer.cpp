@@ -1,10 +1,7 @@
 #include "sample_renderer/reference_renderer.h"
 
-#include "base/halton.h"
 #include "base/parallel.h"
 #include "sample_renderer/path_wave.h"
-#include "sample_renderer/radiance.h"
-#include "sample_renderer/sequence.h"
 
 #include <algorithm>
 #include <array>
@@ -15,24 +12,14 @@ namespace {
 constexpr int kTile = 16;       // pixels across: a wave
 constexpr int kPacketSide = 4;  // pixels across that share a packet of camera rays
 
-// Numbers of a pixel's sample: two for the place in the pixel, three for the first light asked.
-enum PixelDimension : int { kJitter = 0, kLightPlaceInView = 2, kLightChoiceInView = 4 };
-
-float pixel_number(std::uint32_t pixel_seed, std::uint32_t sample, int dimension) {
-    return rotate_unit(halton(dimension, sample),
-                       to_unit_float(hash32(pixel_seed, 0x71aeU + dimension)));
-}
-
-void add_camera_path(const View& view, int x, int y, std::uint32_t pixel_seed, std::uint32_t sample,
+// All samples belong to the first replicate: they are spread best together, and nobody asks for
+// their variance.
+void add_camera_path(const View& view, int x, int y, const Sequence& sequence, std::uint32_t sample,
                      std::uint32_t slot, PathWave& wave) {
-    const auto number = [&](int d) { return pixel_number(pixel_seed, sample, d); };
-    const float px = static_cast<float>(x) + number(kJitter);
-    const float py = static_cast<float>(y) + number(kJitter + 1);
-    wave.add(view.ray(px, py),
-             {.slot = slot,
-              .key = sample_key(pixel_seed, sample),
-              .light_place = {number(kLightPlaceInView), number(kLightPlaceInView + 1)},
-              .light_choice = number(kLightChoiceInView)});
+    const std::uint32_t number = kReplicates * sample;
+    const Vec2 in_pixel = sequence.pair(number, kFirstDirection);
+    wave.add(view.ray(static_cast<float>(x) + in_pixel.x, static_cast<float>(y) + in_pixel.y),
+             make_path(sequence, number, slot));
 }
 
 int tiles_across(int pixels) {
@@ -73,14 +60,13 @@ void ReferenceRenderer::add_to_tile(std::size_t tile, std::uint32_t samples) {
             const int y = top + block / kPacketSide * kPacketSide + inside / kPacketSide;
             if (x >= view_.width() || y >= view_.height()) continue;
             const std::size_t pixel = static_cast<std::size_t>(y) * view_.width() + x;
-            const auto seed = hash32(settings_.seed, static_cast<std::uint32_t>(pixel));
+            const Sequence sequence(hash32(settings_.seed, static_cast<std::uint32_t>(pixel)));
             pixels[count] = pixel;
-            add_camera_path(view_, x, y, seed, s, count++, wave);
+            add_camera_path(view_, x, y, sequence, s, count++, wave);
         }
 
         wave.hits.resize(wave.rays.size());
-        lit_.caster.intersect_coherent(wave.rays, wave.hits);
-        pass_single_sided_backs(lit_.scene, lit_.caster, wave.rays, wave.hits);
+        lit_.caster.intersect_coherent(wave.rays, wave.hits, RayKind::camera);
         follow(lit_, wave, FirstEmission::counted, radiance);
         for (std::uint32_t i = 0; i < count; ++i) sums_[pixels[i]] += glm::dvec3(radiance[i]);
     }

@@ -38,7 +38,8 @@ inline constexpr std::uint32_t kReplicates = 4;
 /// Mean over the requested samples.
 struct ShadeResult {
     Rgb mean = Rgb(0);      // irradiance [lux a channel]
-    Rgb variance = Rgb(0);  // of `mean` [lux^2 a channel], estimated from the replicates
+    Rgb variance = Rgb(0);  // of `mean` [lux^2 a channel], estimated from the replicates: 0 where
+                            // they agree, as when all of them missed what is rare
     bool buried = false;    // most rays met the inside of something: the point lies in a solid
 };
 

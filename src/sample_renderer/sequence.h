@@ -6,11 +6,11 @@
 #include "sample_renderer/sample_renderer.h"
 
 #include <array>
-#include <cmath>
 
 namespace chiaro {
 
-/// Uses of the Halton dimensions along a path, lowest bases to what matters most.
+/// Uses of the Halton dimensions along a path, lowest bases to what matters most. The first
+/// direction is found by the cosine at a point, by the place in a pixel from the eye.
 enum PathDimension : int { kFirstDirection = 0, kFirstLightPlace = 2, kFirstLightChoice = 4 };
 
 /// Uses of the dimensions in direct light; the two direction numbers have a sequence of their own.
@@ -19,7 +19,7 @@ enum DirectDimension : int { kLightPlace = 0, kLightChoice = 2, kLightDirection 
 /// The rotated Halton sequence of one seed, in kReplicates independent copies.
 class Sequence {
 public:
-    explicit Sequence(std::uint32_t seed) : table_(table()) {
+    explicit Sequence(std::uint32_t seed) : seed_(seed), table_(table()) {
         for (std::uint32_t r = 0; r < kReplicates; ++r)
             for (std::uint32_t d = 0; d < kDimensions; ++d)
                 rotations_[r][d] = to_unit_float(hash32(seed, 0x5eed'0000U + 16 * r + d));
@@ -41,28 +41,27 @@ public:
                 rotated(replicate, 1, dimension + 1, index)};
     }
 
+    /// Names the numbers of `sample` beyond the Halton dimensions.
+    std::uint32_t key(std::uint32_t sample) const { return hash32(hash32(seed_, 0x9a7bU), sample); }
+
 private:
     static constexpr int kDimensions = 5;
 
     float rotated(std::uint32_t replicate, int base, int dimension, std::uint32_t index) const {
         const float point = index < kTableSize ? table_[base][index] : halton(base, index);
-        const float sum = point + rotations_[replicate][dimension];
-        return sum - std::floor(sum);  // rotate_unit() without its branch
+        return rotate_unit(point, rotations_[replicate][dimension]);
     }
 
     // The first points once more, where they need no call.
     static constexpr std::uint32_t kTableSize = 1024;
     using Table = std::array<std::array<float, kTableSize>, kDimensions>;
     static const Table& table();
+    std::uint32_t seed_;
     const Table& table_;
     std::array<std::array<float, kDimensions>, kReplicates> rotations_;
 };
 
-/// Names the numbers of one sample beyond the Halton dimensions.
-inline std::uint32_t sample_key(std::uint32_t seed, std::uint32_t sample) {
-    return hash32(hash32(seed, 0x9a7bU), sample);
-}
-/// The numbers of one sample at one bounce, in order.
+/// The numbers at one bounce of the path that `key` names, in order.
 class BounceNumbers {
 public:
     BounceNumbers(std::uint32_t key, std::uint32_t bounce) : state_(hash32(key, bounce)) {}

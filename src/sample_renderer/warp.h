@@ -37,10 +37,11 @@ inline Vec2 square_to_disk(Vec2 u) {
     return {radius * select(by_x, cosine, sine), radius * select(by_x, sine, cosine)};
 }
 
-/// Unit direction about +z with a density proportional to its cosine.
+/// Unit direction about +z with a density proportional to its cosine, which is above 0: on the rim
+/// of the disk it is as much as floats can tell from it.
 inline Vec3 square_to_cosine_hemisphere(Vec2 u) {
     const Vec2 d = square_to_disk(u);
-    return {d.x, d.y, std::sqrt(std::max(0.0f, 1 - glm::dot(d, d)))};
+    return {d.x, d.y, std::sqrt(std::max(1e-8f, 1 - glm::dot(d, d)))};
 }
 /// Density of the above over solid angle, from the direction's cosine [1 / steradian].
 inline float pdf_cosine_hemisphere(float cosine) {

@@ -10,19 +10,13 @@ namespace {
 
 constexpr std::uint32_t kDark = 0xffff'ffff;
 
-// A light's power is found from its texture's mean: good enough to choose by, and never zero where
-// the texture has any light at all.
-Rgb mean_emission(const Scene& scene, const Material& material) {
-    if (!material.emission_texture.used()) return material.emission;
-    return material.emission * mean_color(scene.texture(material.emission_texture.texture));
-}
-
 // Luminance alone would leave out a blue so deep that Y rounds to nothing.
 float weight_of(Rgb color) {
     return luminance(color) + 1e-6f * max_component(color);
 }
 
-// Luminance of each material's lit sides, zero where it is dark: a texture's mean is taken once.
+// Luminance of each material's lit sides, zero where it is dark: a texture's mean is taken once. It
+// is good enough to choose by, and never zero where the texture has any light at all.
 std::vector<float> luminances(const Scene& scene) {
     std::vector<float> result(scene.materials.size(), 0.0f);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -130,13 +124,7 @@ Rgb AreaLights::eval(const AreaLightSample& sample, Vec3 direction) const {
     if (light.plain) return light.radiance[front];
     const Rgb radiance = emission(*scene_, sample.point, front);
     if (radiance == Rgb(0)) return radiance;
-
-    const Mesh& mesh = scene_->mesh_of(scene_->objects[index_of(sample.point.object)]);
-    const Material& material = scene_->material(mesh.primitives[sample.point.primitive].material);
-    if (!material.see_through()) return radiance;
-    const float alpha = base_color(*scene_, sample.point).a;
-    if (material.alpha_mode == AlphaMode::blend) return alpha * radiance;
-    return alpha >= material.alpha_cutoff ? radiance : Rgb(0);
+    return opacity(*scene_, sample.point) * radiance;
 }
 
 std::optional<AreaLightSample> AreaLights::sample(const LitPlace& place, float choice,

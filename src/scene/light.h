@@ -29,8 +29,8 @@ struct PunctualArrival {
 };
 
 /// What `light` sends to `point` (world); nothing outside a spot's cone or at the source itself.
-/// Spot falloff as KHR_lights_punctual's reference: smooth between the squared cosines of the
-/// cones.
+/// Spot falloff as KHR_lights_punctual recommends: the square of a ramp in the cosine of the angle
+/// from the axis, 1 at the inner cone and 0 at the outer.
 std::optional<PunctualArrival> arrival(const PunctualLight& light, Vec3 point);
 
 }  // namespace chiaro

@@ -22,13 +22,14 @@ struct LitPlace {
 };
 
 /// What a light, or a cluster of lights, may be and do. It emits as Lambert's law says about
-/// normals within a cone.
+/// normals within a cone, up to an angle from them.
 struct LightBounds {
     Box box;
     Vec3 axis = Vec3(0, 0, 1);  // of the cone of normals; unit
-    float cone = 0;             // its half angle [radians], up to pi
-    bool two_sided = false;     // something in it emits backward too
-    float intensity = 0;        // along the normal: luminance x area [cd, in metres]; > 0
+    float cone = 0;             // its half angle [radians], up to pi; pi: a point shines anywhere
+    float reach = kPi / 2;   // the angle, up to pi / 2; a spot has a cone of normals and no reach
+    bool two_sided = false;  // something in it emits backward too
+    float intensity = 0;     // along the normal: luminance x area [cd, in metres]; > 0
 };
 
 /// The bounds of both together. A light of no intensity adds nothing.
@@ -69,12 +70,14 @@ private:
         Lanes radius = {};                     // of the sphere about the box; > 0
         Lanes axis[3] = {};
         Lanes cos_cone = {}, sin_cone = {};
+        Lanes cos_reach = {}, sin_reach = {};  // of the largest angle from the axis that is lit
         Lanes intensity = {};
         std::array<std::uint32_t, kWidth> sign_bits =
             {};                                        // of the cosine at the light: kept or not
         std::array<std::uint32_t, kWidth> child = {};  // a node, or kIsLight and a light
         std::uint32_t parent = 0;                      // of the root: itself
         std::uint32_t slot = 0;                        // in the parent
+        bool spots = false;  // something here has less than Lambert's reach
     };
     struct Leaf {
         std::uint32_t node;

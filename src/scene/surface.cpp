@@ -1,8 +1,5 @@
 #include "scene/surface.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace chiaro {
 namespace {
 
@@ -20,16 +17,6 @@ Half half_of(const Mesh& mesh, const Primitive& primitive, const CornerWeights& 
     return {corner_position(mesh, primitive, w.corners[0]),
             corner_position(mesh, primitive, w.corners[1]),
             corner_position(mesh, primitive, w.corners[2])};
-}
-
-// Where the squares might not be floats, as of a small triangle's normal, scaled first.
-Vec3 safe_normalize(Vec3 v, Vec3 otherwise) {
-    const float squared = glm::dot(v, v);
-    if (squared > 1e-30f && squared < 1e30f) return v * (1.0f / std::sqrt(squared));
-    const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (!(largest > 0)) return otherwise;
-    const Vec3 scaled = v / largest;
-    return scaled * (1.0f / std::sqrt(glm::dot(scaled, scaled)));
 }
 
 // The cross product of edges in object space, along the front side's normal. One half of a quad may
@@ -53,6 +40,20 @@ Vec4 texture_value(const Scene& scene, const TextureUse& use, const Mesh& mesh,
     const std::vector<Vec2>& uvs = mesh.uvs[use.uv_set & 1];
     const Vec2 uv = uvs.empty() ? Vec2(0) : blend(uvs, primitive, w);
     return sample_texture(scene.texture(use.texture), use.transform(uv));
+}
+
+// The mean of a texture's colours, whatever its alpha, which emission has no part of in glTF.
+Rgb plain_mean(const Texture& texture) {
+    std::array<std::array<double, 256>, 3> counts = {};
+    for (const auto& texel : texture.texels)
+        for (int c = 0; c < 3; ++c) ++counts[c][texel[c]];
+    glm::dvec3 sum(0);
+    for (int level = 0; level < 256; ++level) {
+        const float encoded = static_cast<float>(level) / 255;
+        const float value = texture.srgb ? srgb_to_linear(encoded) : encoded;
+        for (int c = 0; c < 3; ++c) sum[c] += counts[c][level] * value;
+    }
+    return Rgb(sum / static_cast<double>(texture.texels.size()));
 }
 
 }  // namespace
@@ -86,6 +87,14 @@ Vec3 shading_normal(const Scene& scene, const SurfacePoint& point, Vec3 geometri
     return side < 0 ? -normal : normal;
 }
 
+Vec3 surface_position(const Scene& scene, const SurfacePoint& point) {
+    const Object& object = scene.objects[index_of(point.object)];
+    const Mesh& mesh = scene.mesh_of(object);
+    const Primitive& primitive = mesh.primitives[point.primitive];
+    const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
+    return Vec3(object.to_world * Vec4(blend(mesh.positions, primitive, w), 1));
+}
+
 SurfaceGeometry surface_geometry(const Scene& scene, const SurfacePoint& point) {
     const Object& object = scene.objects[index_of(point.object)];
     const Mesh& mesh = scene.mesh_of(object);
@@ -93,7 +102,7 @@ SurfaceGeometry surface_geometry(const Scene& scene, const SurfacePoint& point) 
     const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
 
     SurfaceGeometry geometry;
-    geometry.position = Vec3(object.to_world * Vec4(blend(mesh.positions, primitive, w), 1));
+    geometry.position = surface_position(scene, point);
     geometry.geometric_normal = safe_normalize(
         normal_matrix(object.to_world) * front_cross(mesh, primitive, w), Vec3(0, 0, 1));
     geometry.shading_normal = shading_normal(scene, point, geometry.geometric_normal);
@@ -116,6 +125,15 @@ Vec4 base_color(const Scene& scene, const SurfacePoint& point) {
     return glm::clamp(color, Vec4(0), Vec4(1));
 }
 
+float opacity(const Scene& scene, const SurfacePoint& point) {
+    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
+    const Material& material = scene.material(mesh.primitives[point.primitive].material);
+    if (!material.see_through()) return 1;
+    const float alpha = base_color(scene, point).a;
+    if (material.alpha_mode == AlphaMode::blend) return alpha;
+    return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
+}
+
 Rgb mean_reflectance(const Scene& scene, const Material& material) {
     const TextureUse& use = material.base_color_texture;
     return use.used() ? material.base_color * mean_color(scene.texture(use.texture))
@@ -131,6 +149,12 @@ Rgb emission(const Scene& scene, const SurfacePoint& point, bool front) {
     const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
     return material.emission *
            Rgb(texture_value(scene, material.emission_texture, mesh, primitive, w));
+}
+
+Rgb mean_emission(const Scene& scene, const Material& material) {
+    const TextureUse& use = material.emission_texture;
+    return use.used() ? material.emission * plain_mean(scene.texture(use.texture))
+                      : material.emission;
 }
 
 float primitive_area(const Scene& scene, ObjectId object_id, std::uint32_t primitive_index) {

@@ -3,7 +3,21 @@
 
 #include "scene/scene.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace chiaro {
+
+/// `v` at unit length, whatever its length; `otherwise` if it has none.
+inline Vec3 safe_normalize(Vec3 v, Vec3 otherwise) {
+    const float squared = glm::dot(v, v);
+    if (squared > 1e-30f && squared < 1e30f) return v * (1.0f / std::sqrt(squared));
+    // The squares are not to be trusted, as of a small triangle's normal: scaled first.
+    const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (!(largest > 0)) return otherwise;
+    const Vec3 scaled = v / largest;
+    return scaled * (1.0f / std::sqrt(glm::dot(scaled, scaled)));
+}
 
 /// A place on a surface. A quad is mapped as Embree maps it: u + v <= 1 lies in triangle
 /// (0, 1, 3) at p0 + u (p1 - p0) + v (p3 - p0), the rest in (2, 3, 1). A triangle: u, v are the
@@ -34,6 +48,9 @@ struct SurfaceGeometry {
 };
 SurfaceGeometry surface_geometry(const Scene& scene, const SurfacePoint& point);
 
+/// The position alone (world space).
+Vec3 surface_position(const Scene& scene, const SurfacePoint& point);
+
 /// The shading normal alone, for a caller that has the geometric one (both world space, unit,
 /// front).
 Vec3 shading_normal(const Scene& scene, const SurfacePoint& point, Vec3 geometric_normal);
@@ -46,11 +63,18 @@ Mat3 normal_matrix(const Mat4& to_world);
 /// its alpha in [0, 1].
 Vec4 base_color(const Scene& scene, const SurfacePoint& point);
 
+/// The part of what meets the surface at the point that it stops, in [0, 1]: all where it is
+/// opaque, all or nothing where it is masked, its alpha where it is blended.
+float opacity(const Scene& scene, const SurfacePoint& point);
+
 /// Mean of base_color() over a material's texture, vertex colours aside.
 Rgb mean_reflectance(const Scene& scene, const Material& material);
 
 /// Exitant radiance by emission from the point's front (`front`) or back face [cd/m2 a channel].
 Rgb emission(const Scene& scene, const SurfacePoint& point, bool front);
+
+/// Mean of emission() over a material's texture, not 0 if any of it shines.
+Rgb mean_emission(const Scene& scene, const Material& material);
 
 /// Area in world space of a primitive [scene units squared].
 float primitive_area(const Scene& scene, ObjectId object, std::uint32_t primitive);

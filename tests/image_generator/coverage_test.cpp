@@ -65,6 +65,22 @@ TEST(Coverage, OutlinesAreBlendedInProportion) {
     }
 }
 
+// A wire 0.4 pixels wide is as wide wherever it lies, also where no pixel's centre meets it: its
+// parts in a row of pixels sum to 0.4, within 1/16 at each of its two edges.
+TEST(Coverage, AWireHasNoGaps) {
+    constexpr float kPixel = 8.0f / 15;
+    for (int step = 0; step <= 20; ++step) {
+        const float left = (static_cast<float>(step) / 20 - 0.5f) * kPixel;
+        Scene scene;
+        add_wall(scene, 0, left, left + 0.4f * kPixel, add_material(scene, Rgb(1)));
+        Looking l(std::move(scene), 15, 15);
+        const IdMap map = l.map(Aov::irradiance);
+        float sum = 0;
+        for (int x = 0; x < 15; ++x) sum += covered(map, x, 7).g;
+        EXPECT_NEAR(sum, 0.4f, 2.0f / 16) << left;
+    }
+}
+
 // Where two walls meet in a pixel each has its part, and together they fill it.
 TEST(Coverage, NeighboursShareAPixel) {
     Scene scene;

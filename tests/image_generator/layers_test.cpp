@@ -44,6 +44,22 @@ TEST(Layers, SingleSidedFacesAreInvisibleFromBehind) {
     }
 }
 
+// Of two single-sided faces back to back the one that faces the camera shows, from either side.
+TEST(Layers, CoincidentSingleSidedFacesShowTheirFronts) {
+    for (const float side : {1.0f, -1.0f}) {
+        Scene scene;
+        const MaterialId sheet = add_material(scene, Rgb(1));
+        scene.materials[index_of(sheet)].double_sided = false;
+        add_wall(scene, 0, -50, 50, sheet);                                 // front toward +z
+        add_quad(scene, {-50, -50, 0}, {0, 91.7f, 0}, {100, 0, 0}, sheet);  // toward -z
+        Looking l(std::move(scene), 15, 15, {0, 0, 4 * side});
+        const IdMap map = l.map(Aov::irradiance);
+        EXPECT_EQ(map.fragments.size(), 15u * 15);
+        for (const Fragment& f : map.fragments)
+            EXPECT_EQ(l.cache.surface_side(f.patch), side > 0 ? 0u : 2u);
+    }
+}
+
 // From its front a single-sided face is seen as any other.
 TEST(Layers, SingleSidedFacesAreVisibleFromTheFront) {
     Scene scene;
@@ -74,6 +90,31 @@ TEST(Layers, ManyLayersFadeGeometrically) {
     ASSERT_EQ(parts.size(), 4u);
     const std::array<float, 4> expected = {16, 12, 9, 27};
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(parts[i], expected[i] / 64, 1e-5f);
+}
+
+// Blended surfaces in one place count each: 1/2, 1/4, and 1/4 of the wall behind them, which may be
+// as near as floats can tell.
+TEST(Layers, BlendedSurfacesInOnePlaceAreAllSeen) {
+    for (const float behind : {1.0f, 1e-6f}) {
+        Scene scene;
+        const MaterialId half = add_blended(scene, Rgb(1), 0.5f);
+        add_wall(scene, 0, -50, 50, half);
+        add_wall(scene, 0, -50, 50, half);
+        add_wall(scene, -behind, -50, 50, add_material(scene, Rgb(1)));
+        Looking l(std::move(scene), 15, 15);
+        EXPECT_EQ(parts_in_the_middle(l), (std::vector<float>{0.5f, 0.25f, 0.25f}));
+    }
+}
+
+// A lamp behind a pane of alpha 0.95 keeps its twentieth, though a pixel at a lamp is looked at by
+// 64 rays that each are little of it.
+TEST(Layers, LittleOfALampIsStillSeen) {
+    Scene scene;
+    add_wall(scene, 1, -50, 50, add_blended(scene, Rgb(0), 0.95f));
+    add_wall(scene, 0, -50, 50, add_material(scene, Rgb(0), Rgb(100)));
+    add_wall(scene, 2, 0.14f, 50, add_material(scene, Rgb(0), Rgb(1)));  // in the next pixel
+    Looking l(std::move(scene), 15, 15);
+    EXPECT_NEAR(l.map(Aov::radiance).background.at(7, 7).r, 5, 1e-3f);
 }
 
 // Alpha 0 is nothing, alpha 1 is all.

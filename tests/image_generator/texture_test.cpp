@@ -38,8 +38,9 @@ TEST(TextureMean, ACheckerboardWithinAPixelIsGrey) {
             EXPECT_NEAR(kPi * covered(map, x, y).g, 0.5f, 1e-4f) << x << ' ' << y;
 }
 
-// Cells of any size average out over the picture. 48 x 48 pixels: the mean of independent pixels
-// that are 0 or 1 would be within 0.01 of 1/2 (one deviation); bound 5 of these.
+// Cells of any size average out over the picture. Nothing here is random; were 48 x 48 pixels 0 or
+// 1 by chance, the standard deviation of their mean would be 0.01: bound 5 of these, false alarm
+// 2e-6 over four sizes.
 TEST(TextureMean, APictureOfAFineCheckerboardIsGrey) {
     for (const float cells : {37.3f, 61.7f, 143.1f, 411.9f}) {
         Looking l(checkerboard(cells), 48, 48);

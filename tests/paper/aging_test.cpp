@@ -11,7 +11,7 @@ namespace {
 
 using namespace tiny;
 
-// A square at which one looks in cycle 1 alone, divided twice.
+// A square, divided twice, at which one looks in cycle 1 and away in cycle 2.
 struct Aged {
     Scene scene = grid(1, 1);
     ShadingCache cache;
@@ -34,9 +34,9 @@ TEST(PaperAging, ChildrenLiveAsManyCyclesUnseenAsTheUserSays) {
     for (const Cycle unseen : {0u, 1u, 10u, 1000u}) {
         Aged a;
         const AgingSettings settings = {.budget_bytes = 0, .unseen_cycles = unseen};
-        EXPECT_FALSE(age_out(a.cache, settings, 1 + unseen));
+        EXPECT_FALSE(age_out(a.cache, settings, 2 + unseen));  // in view until cycle 2
         EXPECT_EQ(a.cache.patches().size(), 21u);
-        EXPECT_TRUE(age_out(a.cache, settings, 2 + unseen));
+        EXPECT_TRUE(age_out(a.cache, settings, 3 + unseen));
         EXPECT_EQ(a.cache.patches().size(), 1u);
     }
 }

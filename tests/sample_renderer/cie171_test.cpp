@@ -1,5 +1,7 @@
 // CIE 171:2006, section 5: rooms whose illuminance is an integral. Expected values are the exact
-// integrals, not the report's tables.
+// integrals, not the report's tables. Of every sampled number the standard error over seeds is
+// given, as it was measured; bounds are at least 5 of them, with what else is left out: a sound
+// program fails one of these with a chance of 6e-7 a number.
 #include "sample_renderer/meter.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +17,8 @@ void expect_lux(float found, double expected, double tolerance, const char* what
     EXPECT_NEAR(found / expected, 1, tolerance) << what << " " << where;
 }
 
-// 5.2: a Lambertian source of 1 cm, 1000 cd straight down, 3 m above a plane 4 x 4 m.
+// 5.2: a Lambertian source of 1 cm, 1000 cd straight down, 3 m above a plane 4 x 4 m. Standard
+// error 2e-5.
 TEST(Cie171, PointSourceLambertian) {
     Scene scene;
     const float side = 0.01f;
@@ -43,7 +46,7 @@ TEST(Cie171, PointSourceIsotropic) {
     }
 }
 
-// 5.3: a Lambertian source of 1 x 1 m in the ceiling's centre, 1000 cd/m2.
+// 5.3: a Lambertian source of 1 x 1 m in the ceiling's centre, 1000 cd/m2. Standard error 0.03 %.
 TEST(Cie171, AreaSource) {
     Scene scene;
     const MaterialId lamp = tiny::add_material(scene, Rgb(0), Rgb(1000));
@@ -52,7 +55,7 @@ TEST(Cie171, AreaSource) {
     const Meter meter(scene);
     const double expected[4][2] = {{0.25, 61.42}, {0.75, 79.26}, {1.25, 95.67}, {1.75, 105.78}};
     for (const auto& [y, lux] : expected)
-        expect_lux(meter.lux({2, y, 0}, kUp, Light::direct, 4096), lux, 0.002, "y", y);
+        expect_lux(meter.lux({2, y, 0}, kUp, Light::direct, 1 << 14), lux, 0.002, "y", y);
 }
 
 // Sum over a closed black room of illuminance x area, on a grid of n x n points a face.
@@ -76,7 +79,8 @@ double flux_received(Meter& meter, Vec3 size, int n, std::uint32_t samples) {
     return flux;
 }
 
-// 5.4: what a source sends out arrives, all of it, in a closed black room of 80 m2.
+// 5.4: what a source sends out arrives, all of it, in a closed black room of 80 m2: from a point
+// with no noise, from an area with a standard error of 0.03 %.
 TEST(Cie171, FluxIsConserved) {
     const Vec3 size(4, 4, 3);
     Scene point;
@@ -93,11 +97,11 @@ TEST(Cie171, FluxIsConserved) {
     tiny::add_quad(area, {1, 1.5f, 2}, {1, 0, 0.2f}, {0, 1, 0}, lamp);
     Meter by_area(area);
     const double sent = 2 * kPi * 2000 * std::sqrt(1.04);
-    EXPECT_NEAR(flux_received(by_area, size, 32, 64) / sent, 1, 0.002);
+    EXPECT_NEAR(flux_received(by_area, size, 32, 256) / sent, 1, 0.002);
 }
 
 // 5.6: a floor of rho 0.3 under parallel light E_h lights a wall. Indirect light on the wall alone,
-// since the parallel light grazes it.
+// since the parallel light grazes it. Standard error 0.04 to 0.08 %.
 TEST(Cie171, DiffuseReflection) {
     Scene scene;
     tiny::add_quad(scene, Vec3(0), {4, 0, 0}, {0, 4, 0}, tiny::add_material(scene, Rgb(0.3f)));
@@ -106,7 +110,7 @@ TEST(Cie171, DiffuseReflection) {
     const double expected[5][2] = {
         {0.75, 35.901}, {1.25, 27.992}, {1.75, 21.639}, {2.25, 16.716}, {2.75, 12.967}};
     for (const auto& [z, percent] : expected)
-        expect_lux(meter.lux({2, 0, z}, {0, 1, 0}, Light::indirect, 1 << 16), percent * 3, 0.005,
+        expect_lux(meter.lux({2, 0, z}, {0, 1, 0}, Light::indirect, 1 << 17), percent * 3, 0.005,
                    "z", z);
 }
 
@@ -118,7 +122,8 @@ Scene cube(float rho) {
 }
 
 // 5.8: mean indirect illuminance of a cube of 4 m with a source at its centre, all faces rho:
-// Phi rho / (96 (1 - rho)). By symmetry the mean of a quarter of a face, on a grid of midpoints.
+// Phi rho / (96 (1 - rho)). By symmetry the mean of a quarter of a face, on a grid of midpoints,
+// which is 0.24 % too much at most; standard error 0.1 to 0.3 %.
 TEST(Cie171, InterreflectionMean) {
     for (const float rho : {0.1f, 0.3f, 0.5f, 0.7f, 0.9f, 0.95f}) {
         Meter meter(cube(rho));
@@ -130,21 +135,21 @@ TEST(Cie171, InterreflectionMean) {
                                               (float(y) + 0.5f) / (2 * kGrid)},
                                     .light = Light::indirect,
                                     .seed = std::uint32_t(requests.size()),
-                                    .samples = 1024});
+                                    .samples = 2048});
         double mean = 0;
         for (const ShadeResult& result : meter.shade(requests)) mean += luminance(result.mean);
         mean /= kGrid * kGrid;
-        EXPECT_NEAR(mean / (10'000 * rho / (96 * (1 - double(rho)))), 1, 0.01) << rho;
+        EXPECT_NEAR(mean / (10'000 * rho / (96 * (1 - double(rho)))), 1, 0.017) << rho;
     }
 }
 
-// 5.8, point by point at rho = 0.5, from the centre of a face.
+// 5.8, point by point at rho = 0.5, from the centre of a face. Standard error 0.25 %.
 TEST(Cie171, InterreflectionPointByPoint) {
     const Meter meter(cube(0.5f));
     const double expected[5][3] = {
         {0, 0, 112.04}, {1, 0, 110.88}, {1, 1, 107.78}, {1.5, 1.5, 96.85}, {1.9, 1.9, 77.03}};
     for (const auto& [x, y, lux] : expected)
-        expect_lux(meter.lux({x, y, -2}, kUp, Light::indirect, 1 << 16), lux, 0.005, "x", x);
+        expect_lux(meter.lux({x, y, -2}, kUp, Light::indirect, 1 << 17), lux, 0.015, "x", x);
     expect_lux(meter.lux({0, 0, -2}, kUp, Light::direct, 4), 198.94, 1e-4, "direct", 0);
 }
 

@@ -1,4 +1,6 @@
-// Form factors and furnaces: answers that are known whatever the shape of the room.
+// Form factors and furnaces: answers that are known whatever the shape of the room. Standard errors
+// over seeds are given as they were measured; bounds are at least 5 of them, false alarm 6e-7 a
+// number.
 #include "sample_renderer/meter.h"
 
 #include <gtest/gtest.h>
@@ -21,6 +23,7 @@ double form_factor(const Meter& meter, int n, std::uint32_t samples) {
     return sum / (n * n) / kPi;
 }
 
+// Standard error 0.07 %.
 TEST(FormFactors, OppositeUnitSquares) {
     Scene scene;
     tiny::add_quad(scene, {0, 0, 1}, {0, 1, 0}, {1, 0, 0},
@@ -28,13 +31,15 @@ TEST(FormFactors, OppositeUnitSquares) {
     EXPECT_NEAR(form_factor(Meter(scene), 48, 32) / 0.199824896, 1, 0.005);
 }
 
+// Standard error 0.15 %: light grazes along the common edge.
 TEST(FormFactors, AdjacentUnitSquares) {
     Scene scene;
     tiny::add_quad(scene, Vec3(0), {0, 1, 0}, {0, 0, 1}, tiny::add_material(scene, Rgb(0), Rgb(1)));
-    EXPECT_NEAR(form_factor(Meter(scene), 48, 64) / 0.200043776, 1, 0.01);
+    EXPECT_NEAR(form_factor(Meter(scene), 96, 64) / 0.200043776, 1, 0.01);
 }
 
 // Discs of radius 1, 1 apart, the lamp a fan of 512 triangles; points even over the other disc.
+// Standard error 0.07 %.
 TEST(FormFactors, CoaxialDiscs) {
     Scene scene;
     const MaterialId lamp = tiny::add_material(scene, Rgb(0), Rgb(1));
@@ -55,12 +60,12 @@ TEST(FormFactors, CoaxialDiscs) {
         const float r = std::sqrt((float(i) + rng.uniform()) / kPoints);
         sum += luminance(meter.at({r, 0, 0}, {0, 0, 1}, Light::direct, 64, rng.next()).mean);
     }
-    EXPECT_NEAR(sum / kPoints / kPi / 0.381966011, 1, 0.003);
+    EXPECT_NEAR(sum / kPoints / kPi / 0.381966011, 1, 0.004);
 }
 
 // All faces shine with Le = 1 and reflect rho, another in each channel: L = 1 / (1 - rho), whatever
 // the shape. A cap on bounces, a lost or doubled path or a leak shows at once. Standard errors are
-// 0.1 % at rho 0.5 and 0.3 % at 0.95; bounds 5 of them, false alarm below 1e-5.
+// 0.04 % at rho 0.5, 0.08 % at 0.8 and 0.3 % at 0.95.
 void expect_furnace(const Scene& scene, Vec3 inside) {
     const Meter meter(scene);
     std::vector<Ray> rays;
@@ -74,9 +79,9 @@ void expect_furnace(const Scene& scene, Vec3 inside) {
     for (const Rgb& value : values) mean += value / float(values.size());
     EXPECT_NEAR(mean.r / 2, 1, 0.005);
     EXPECT_NEAR(mean.g / 5, 1, 0.005);
-    EXPECT_NEAR(mean.b / 20, 1, 0.015);
+    EXPECT_NEAR(mean.b / 20, 1, 0.018);
 
-    // Irradiance at a surface: pi L, of which pi Le is direct.
+    // Irradiance at a surface: pi L, of which pi Le is direct. Standard errors 0.1 and 0.35 %.
     const Hit hit = meter.look(inside, {0.3f, 0.2f, -1});
     const Vec3 p = inside + hit.t * Vec3(0.3f, 0.2f, -1);
     const Vec3 n = hit.front ? hit.normal : -hit.normal;
@@ -86,7 +91,7 @@ void expect_furnace(const Scene& scene, Vec3 inside) {
     EXPECT_NEAR(direct.mean.r / kPi, 1, 0.01);
     EXPECT_NEAR(total.r / kPi / 2, 1, 0.01);
     EXPECT_NEAR(total.g / kPi / 5, 1, 0.01);
-    EXPECT_NEAR(total.b / kPi / 20, 1, 0.015);
+    EXPECT_NEAR(total.b / kPi / 20, 1, 0.02);
 }
 
 const Rgb kRho(0.5f, 0.8f, 0.95f);
@@ -128,6 +133,7 @@ TEST(EmissiveFurnace, FurnishedRoom) {
 
 // An integrating sphere of 2 m, rho 0.7, 10 000 lm at its centre, as 96 x 48 flat faces: indirect
 // E = rho Phi / ((1 - rho) 4 pi R^2) = 464.2 lux; the faces' smaller area makes 0.1 % more.
+// Standard error 0.25 %.
 TEST(IntegratingSphere, IndirectLight) {
     Scene scene;
     const MaterialId m = tiny::add_material(scene, Rgb(0.7f));
@@ -151,7 +157,7 @@ TEST(IntegratingSphere, IndirectLight) {
         const Hit hit = meter.look(Vec3(0), glm::normalize(d));
         const Vec3 n = hit.front ? hit.normal : -hit.normal;
         const Vec3 p = hit.t * glm::normalize(d) + 1e-4f * n;
-        EXPECT_NEAR(meter.lux(p, n, Light::indirect, 1 << 15) / 464.202, 1, 0.01);
+        EXPECT_NEAR(meter.lux(p, n, Light::indirect, 1 << 17) / 464.202, 1, 0.015);
     }
 }
 

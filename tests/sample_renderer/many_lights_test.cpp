@@ -138,8 +138,9 @@ TEST(ManyLights, NoneIsChosenInTheDark) {
     }
 }
 
-// Light of all lamps = the sum of each lamp alone, which the choice plays no part in. 5 standard
-// errors by the renderer's own estimates at 3 places: false alarm 2e-6, were they normal.
+// Light of all lamps = the sum of each lamp alone, which the choice plays no part in. 7 standard
+// errors by the renderer's own estimates, which are 5 of those measured over seeds, at 3 places:
+// false alarm 2e-6.
 TEST(ManyLights, DirectLightIsTheSumOfEachLampAlone) {
     const Meter all(lamps());
     const std::vector<LitPlace> where = places();
@@ -163,7 +164,7 @@ TEST(ManyLights, DirectLightIsTheSumOfEachLampAlone) {
             squares += g * g / kSeeds;
         }
         const double variance = variances[p] + (squares - mean * mean) / (kSeeds - 1);
-        EXPECT_NEAR(mean, sums[p], 5 * std::sqrt(variance));
+        EXPECT_NEAR(mean, sums[p], 7 * std::sqrt(variance));
         EXPECT_LT(std::sqrt(variance) / mean, 0.01);
     }
 }

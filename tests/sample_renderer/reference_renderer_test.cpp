@@ -33,7 +33,8 @@ TEST(ReferenceRenderer, SameBitsOnAnyThreadsAndAnyPasses) {
 }
 
 // A pixel's radiance is albedo / pi times the irradiance of what it shows: the picture and the
-// meter agree on the floor, in all channels. 2048 paths over 9 pixels: 0.4 %; bound 2 %.
+// meter agree on the floor, in all channels. Standard error over seeds 0.45 %, and the middle of a
+// pixel has 0.15 % more than its mean; bound 5 of them, false alarm 6e-7 a channel.
 TEST(ReferenceRenderer, AgreesWithIrradiance) {
     const Meter meter(tiny::cornell_box());
     const View view(cornell_camera(), 45, 35);
@@ -53,7 +54,7 @@ TEST(ReferenceRenderer, AgreesWithIrradiance) {
             expected += e * Rgb(base_color(meter.scene, hit.point)) / kPi;
         }
     }
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / expected[c], 1, 0.02);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / expected[c], 1, 0.025);
 }
 
 // The lamp is seen with its radiance, the empty background black.

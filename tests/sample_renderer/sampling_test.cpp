@@ -39,28 +39,34 @@ TEST(Sampling, CosineDensityIntegratesToOne) {
     EXPECT_NEAR(sum, 1, 1e-5);
 }
 
-// Lights are chosen with the probabilities that the choice states, and those follow the power.
-TEST(Sampling, LightChoiceStatesItsProbabilities) {
-    Scene scene;
-    tiny::add_quad(scene, Vec3(0), {1, 0, 0}, {0, 1, 0}, tiny::add_material(scene, Rgb(0), Rgb(8)));
-    for (const float candela : {1.0f, 0.0f, 3.0f})
-        scene.lights.push_back(tiny::point_light({0, 0, 1}, Rgb(candela)));
-    const AreaLights area(scene);
-    const LightChoice choice(scene, area, 1);
-    constexpr int kSteps = 100'000;
-    std::array<int, 4> counts = {};
-    std::array<float, 4> stated = {};
-    for (int i = 0; i < kSteps; ++i) {
-        const auto c = choice.sample((float(i) + 0.5f) / kSteps);
-        ++counts[c.punctual + 1];
-        stated[c.punctual + 1] = c.probability;
-        EXPECT_TRUE(c.rest >= 0 && c.rest < 1);
+// A direction that is sampled has a density above 0, also from the rim of the square and about
+// shading normals that lean far from the surface: else a path would divide 0 by 0 where no light
+// sampling could have found the same.
+TEST(Sampling, SampledDirectionsHaveADensity) {
+    const float last = 0x1.fffffep-1f;
+    Rng rng(2);
+    std::vector<Vec2> places;
+    for (const float edge : {0.0f, 0.5f, last})
+        for (const float along : {0.0f, 0.25f, 0.5f, last, rng.uniform()}) {
+            places.push_back({edge, along});
+            places.push_back({along, edge});
+        }
+    for (const Vec2 u : places) {
+        EXPECT_GT(square_to_cosine_hemisphere(u).z, 0) << u.x << " " << u.y;
+        EXPECT_NEAR(glm::length(square_to_cosine_hemisphere(u)), 1, 1e-6f);
     }
-    EXPECT_NEAR(stated[0] / stated[1], 2, 1e-4);  // pi x 8 against 4 pi x 1
-    EXPECT_NEAR(stated[3] / stated[1], 3, 1e-4);
-    EXPECT_EQ(counts[2], 0);
-    for (const int i : {0, 1, 3}) EXPECT_NEAR(counts[i], stated[i] * kSteps, 2);
-    EXPECT_EQ(choice.probability_of_area_lights(), stated[0]);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 up = glm::normalize(Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 0.4f);
+        Vec3 leaning = glm::normalize(Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 0.5f);
+        if (glm::dot(leaning, up) < 0) leaning = -leaning;
+        for (const Vec3 shading : {up, leaning}) {
+            const Receiver receiver = {Vec3(0), Vec3(0), up, shading};
+            for (const Vec2 u : places) {
+                const Vec3 w = sample_receiving_cosine(receiver, u);
+                EXPECT_GT(pdf_receiving_cosine(receiver, w), 0);
+            }
+        }
+    }
 }
 
 // A lamp large and near, so that each technique matters, half hidden by a sheet.
@@ -74,7 +80,7 @@ Scene near_lamp() {
 }
 
 // The weighted estimate has the mean that light samples alone and cosine rays alone have. Standard
-// errors below 0.2 %; bound 1 %.
+// errors over seeds 0.4 and 0.11 %; bounds 5 of them, false alarm 6e-7 each.
 TEST(Sampling, WeightedEqualsEachTechniqueAlone) {
     const Meter meter(near_lamp());
     const Vec3 up(0, 0, 1);
@@ -85,16 +91,16 @@ TEST(Sampling, WeightedEqualsEachTechniqueAlone) {
     for (int i = 0; i < kSamples; ++i) {
         const auto c =
             connect_area_light(meter.lit, receiver, rng.uniform(), {rng.uniform(), rng.uniform()});
-        std::uint8_t blocked = 1;
-        if (c) meter.caster.occluded({&c->shadow_ray, 1}, {&blocked, 1});
-        if (!blocked) by_light += c->irradiance.r / kSamples;
+        Rgb through(0);
+        if (c) meter.caster.transmittance({&c->shadow_ray, 1}, {&through, 1});
+        if (c) by_light += (through * c->irradiance).r / kSamples;
         const Vec3 d = square_to_cosine_hemisphere({rng.uniform(), rng.uniform()});
         const Hit hit = meter.look(receiver.origin, d);
         if (hit) by_cosine += kPi * emission(meter.scene, hit.point, hit.front).r / kSamples;
     }
     const float weighted = meter.at(Vec3(0), up, Light::direct, 1 << 17).mean.r;
-    EXPECT_NEAR(by_light / by_cosine, 1, 0.01);
-    EXPECT_NEAR(weighted / by_cosine, 1, 0.005);
+    EXPECT_NEAR(by_light / by_cosine, 1, 0.02);
+    EXPECT_NEAR(weighted / by_cosine, 1, 0.006);
 }
 
 // The density that MIS gives a ray's hit is the one that the light sampler states of the same
@@ -117,26 +123,6 @@ TEST(Sampling, BothTechniquesStateTheSameDensity) {
         ++compared;
     }
     EXPECT_GT(compared, 100);
-}
-
-// Twenty sources, more than are asked one by one: the choice by power has the mean of their sum.
-// Standard error 0.3 %; bound 2 %.
-TEST(Sampling, ManyPunctualLightsAreChosenByPower) {
-    Scene scene;
-    tiny::add_quad(scene, {-9, -9, 0}, {18, 0, 0}, {0, 18, 0},
-                   tiny::add_material(scene, Rgb(0.5f)));
-    Rng rng(7);
-    double expected = 0;
-    for (int i = 0; i < 20; ++i) {
-        const Vec3 p(4 * rng.uniform() - 2, 4 * rng.uniform() - 2, 2 + rng.uniform());
-        const float candela = 1 + rng.uniform();
-        scene.lights.push_back(tiny::point_light(p, Rgb(candela)));
-        expected += candela * p.z / std::pow(double(glm::dot(p, p)), 1.5);
-    }
-    const Meter meter(scene);
-    const ShadeResult found = meter.at(Vec3(0), {0, 0, 1}, Light::direct, 1 << 15);
-    EXPECT_NEAR(found.mean.r / expected, 1, 0.02);
-    EXPECT_GT(found.variance.r, 0);
 }
 
 }  // namespace

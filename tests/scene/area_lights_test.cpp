@@ -85,8 +85,8 @@ TEST(AreaLights, SamplesLieOnTheirPrimitives) {
 
 // Chi^2 test: counts in cells of equal (u, v) range against area x pdf of each cell. Cells of a
 // half of a quad have equal area, so every primitive splits evenly within its halves. 4 x 4 cells a
-// primitive, those on a quad's diagonal left together; false alarm 1e-6 at 3 standard deviations
-// above the 5-sigma bound of a normal with the chi^2 mean and variance.
+// primitive, those on a quad's diagonal in two parts. Chi^2 may be 8 standard deviations above its
+// mean, where its tail is 5e-9 (49 degrees of freedom): so rarely would a sound program fail.
 TEST(AreaLights, ChiSquaredOfSamples) {
     const Scene scene = lamps();
     const AreaLights lights(scene);
@@ -133,6 +133,8 @@ TEST(AreaLights, ChiSquaredOfSamples) {
             }
         }
     }
+    for (const auto& [k, count] : counts)
+        EXPECT_TRUE(expected.contains(k)) << count << " samples where none belongs";
     double chi2 = 0;
     for (const auto& [k, e] : expected) {
         const double difference = counts[k] - e;
@@ -140,6 +142,22 @@ TEST(AreaLights, ChiSquaredOfSamples) {
     }
     const double dof = double(expected.size()) - 1;
     EXPECT_LT(chi2, dof + 8 * std::sqrt(2 * dof)) << dof;
+}
+
+// The alpha of an emission texture is no part of it: texels that shine do so at alpha 0 too, and
+// half of the texels lit make half of the power.
+TEST(AreaLights, AlphaOfAnEmissionTextureMeansNothing) {
+    Scene scene;
+    tiny::add_quad(scene, {0, 0, 0}, {3, 0, 0}, {0, 1, 0},
+                   tiny::add_material(scene, Rgb(0), Rgb(4)));
+    Texture texture;
+    texture.width = 2;
+    texture.height = 1;
+    texture.texels = {{255, 255, 255, 0}, {0, 0, 0, 255}};
+    scene.textures.push_back(texture);
+    scene.materials[0].emission_texture.texture = TextureId(0);
+    EXPECT_NEAR(AreaLights(scene).power() / (kPi * 4 * 3 * 0.5), 1, 1e-5);
+    EXPECT_EQ(mean_emission(scene, scene.materials[0]), Rgb(2));
 }
 
 // A mask cuts emission at its cutoff and a blend scales it, as seen by a ray that may pass through.
