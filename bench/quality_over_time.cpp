@@ -9,6 +9,7 @@
 #include "base/image_difference.h"
 #include "base/random.h"
 #include "import/image_file.h"
+#include "sample_renderer/gather_renderer.h"
 #include "sample_renderer/path_renderer.h"
 #include "sample_renderer/radiance.h"
 #include "sample_renderer/reference_renderer.h"
@@ -99,10 +100,11 @@ nlohmann::json row(double seconds, const Image& picture, const Reference& refere
     return {{"seconds", seconds}, {"psnr", d.psnr}, {"relmse", d.relmse}};
 }
 
+template <typename Renderer>
 nlohmann::json measure_cache(const Stage& stage, Scheme scheme, double seconds,
                              const Reference& reference) {
     OpenSides open_sides(stage.scene);
-    PathRenderer renderer(stage.scene, stage.rays, stage.area_lights, &open_sides, stage.threads);
+    Renderer renderer(stage.scene, stage.rays, stage.area_lights, &open_sides, stage.threads);
     UpdateSettings settings;
     settings.scheme = scheme;
     settings.threads = stage.threads;
@@ -186,8 +188,12 @@ int run(int argc, char** argv) {
     result["size"] = options.size;
     result["threads"] = threads;
     result["reference_spp"] = 2 * spp;
-    result["methods"]["best"] = measure_cache(stage, Scheme::best, seconds, reference);
-    result["methods"]["paper"] = measure_cache(stage, Scheme::paper, seconds, reference);
+    result["methods"]["best"] =
+        measure_cache<GatherRenderer>(stage, Scheme::best, seconds, reference);
+    result["methods"]["best, traced"] =
+        measure_cache<PathRenderer>(stage, Scheme::best, seconds, reference);
+    result["methods"]["paper"] =
+        measure_cache<PathRenderer>(stage, Scheme::paper, seconds, reference);
     result["methods"]["path"] = measure_path_tracing(stage, path_seconds, reference);
     std::printf("%s\n", result.dump(1).c_str());
     return 0;

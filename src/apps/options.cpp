@@ -64,12 +64,19 @@ Aov parse_aov(const std::string& text) {
     throw Error("--aov", "there is no '" + text + "'", "choose radiance or irradiance");
 }
 
-void check_renderer(const std::string& text) {
-    if (text == "path") return;
-    for (const char* later : {"bidirectional", "caustic", "gather"})
+RendererName parse_renderer(const std::string& text, RendererName otherwise) {
+    if (text.empty()) return otherwise;
+    if (text == "path") return RendererName::path;
+    if (text == "gather") return RendererName::gather;
+    for (const char* later : {"bidirectional", "caustic"})
         if (text == later)
-            throw Error("--renderer", text + " comes in a later version", "use path");
-    throw Error("--renderer", "there is no renderer '" + text + "'", "use path");
+            throw Error("--renderer", text + " comes in a later version", "use gather or path");
+    throw Error("--renderer", "there is no renderer '" + text + "'", "choose gather or path");
+}
+
+void check_only_path(const Options& options) {
+    if (parse_renderer(options.renderer, RendererName::path) != RendererName::path)
+        throw Error("--renderer", "this command has path alone", "use path");
 }
 
 void check_time(const Options& options) {
@@ -127,7 +134,9 @@ void add_view_options(CLI::App& command, Options& o) {
 }
 
 void add_render_options(CLI::App& command, Options& o) {
-    command.add_option("--renderer", o.renderer, "sample renderer")->capture_default_str();
+    command.add_option(
+        "--renderer", o.renderer,
+        "sample renderer: gather or path (default: gather; with --scheme paper, path)");
     command.add_option("--threads", o.threads, "threads to use (default: all)");
     command.add_option("--seed", o.seed, "of all random numbers")
         ->capture_default_str()

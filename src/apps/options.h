@@ -19,7 +19,7 @@ struct Options {
     std::string camera;
     std::string eye, target, up;
     std::optional<float> vertical_fov;
-    std::string renderer = "path";
+    std::string renderer;  // empty: what suits the command and the scheme
     std::string scheme = "best";
     std::string aov = "radiance";
     std::optional<int> direct_samples, indirect_samples;
@@ -49,7 +49,11 @@ PictureSize parse_size(const std::string& text);
 glm::dvec3 parse_vector(const std::string& option, const std::string& text);
 Scheme parse_scheme(const std::string& text);
 Aov parse_aov(const std::string& text);
-void check_renderer(const std::string& text);
+enum class RendererName { path, gather };
+/// `otherwise` where nothing was asked for.
+RendererName parse_renderer(const std::string& text, RendererName otherwise);
+/// For commands that only have `path`.
+void check_only_path(const Options& options);
 void check_time(const Options& options);
 std::uint32_t sample_count(const char* option, std::optional<int> value, std::uint32_t otherwise);
 

@@ -15,7 +15,7 @@ namespace chiaro {
 int reference_command(const Options& options) {
     constexpr int kDefaultSpp = 64;
     check_outputs(options);
-    check_renderer(options.renderer);
+    check_only_path(options);
     if (options.spp && (*options.spp < 1 || *options.spp > 1 << 24))
         throw Error("--spp", "it must lie between 1 and 16777216");
     check_time(options);

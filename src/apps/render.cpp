@@ -5,11 +5,13 @@
 #include "apps/output.h"
 #include "base/error.h"
 #include "import/output_file.h"
+#include "sample_renderer/gather_renderer.h"
 #include "sample_renderer/path_renderer.h"
 
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 namespace chiaro {
 namespace {
@@ -73,9 +75,11 @@ RunFigures run_cycles(UpdateCycle& cycle, const Options& options) {
 
 int render_command(const Options& options) {
     check_outputs(options);
-    check_renderer(options.renderer);
     check_budget(options);
     const UpdateSettings settings = update_settings(options);
+    const RendererName renderer_name =
+        parse_renderer(options.renderer, settings.scheme == Scheme::paper ? RendererName::path
+                                                                          : RendererName::gather);
     const PictureSize size = parse_size(options.size);
     Scene scene = open_scene(options);
     const Camera camera = choose_camera(scene, options);
@@ -84,8 +88,14 @@ int render_command(const Options& options) {
     const RayCaster rays(scene, settings.threads);
     const AreaLights area_lights(scene);
     OpenSides open_sides(scene);
-    PathRenderer renderer(scene, rays, area_lights, &open_sides, settings.threads);
-    UpdateCycle cycle(rays, renderer, open_sides, settings);
+    std::unique_ptr<SampleRenderer> renderer;
+    if (renderer_name == RendererName::gather)
+        renderer = std::make_unique<GatherRenderer>(scene, rays, area_lights, &open_sides,
+                                                    settings.threads);
+    else
+        renderer =
+            std::make_unique<PathRenderer>(scene, rays, area_lights, &open_sides, settings.threads);
+    UpdateCycle cycle(rays, *renderer, open_sides, settings);
     cycle.look_from(View(camera, size.width, size.height));
 
     catch_interrupts();

@@ -159,7 +159,7 @@ void print(const std::vector<Rgb>& values, bool lux) {
 }  // namespace
 
 int trace_command(const Options& options) {
-    check_renderer(options.renderer);
+    check_only_path(options);
     if (options.lux && !options.irradiance)
         throw Error("--lux", "radiance is not measured in lux", "add -I");
     const Effort effort = effort_of(options);

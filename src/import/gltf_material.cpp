@@ -123,6 +123,7 @@ void GltfMaterials::read_gloss(const tinygltf::Material& source, const std::stri
                                Material& material) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     Gloss& gloss = material.gloss;
+    gloss.model = GlossModel::metallic_roughness;
     gloss.metallic = static_cast<float>(pbr.metallicFactor);
     gloss.roughness = static_cast<float>(pbr.roughnessFactor);
     gloss.metallic_roughness = use(pbr.metallicRoughnessTexture, false,
@@ -134,6 +135,7 @@ void GltfMaterials::read_gloss(const tinygltf::Material& source, const std::stri
                                    "specularColorFactor", gloss.specular_color);
     gloss.transmission = number(source.extensions, "KHR_materials_transmission",
                                 "transmissionFactor", gloss.transmission);
+    gloss.thin = !(number(source.extensions, "KHR_materials_volume", "thicknessFactor", 0) > 0);
 }
 
 TextureUse GltfMaterials::use(const tinygltf::TextureInfo& info, bool srgb,

@@ -153,6 +153,8 @@ inline constexpr GltfRule kGltfRules[] = {
     {"materials/*/extensions/KHR_materials_specular/specularColorFactor/*", JsonKind::number, true, 0},
     {"materials/*/extensions/KHR_materials_transmission", JsonKind::object},
     {"materials/*/extensions/KHR_materials_transmission/transmissionFactor", JsonKind::number, false, 0, 1},
+    {"materials/*/extensions/KHR_materials_volume", JsonKind::object},
+    {"materials/*/extensions/KHR_materials_volume/thicknessFactor", JsonKind::number, false, 0},
 
     {"textures", JsonKind::array},
     {"textures/*/name", JsonKind::string},

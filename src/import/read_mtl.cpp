@@ -39,6 +39,7 @@ private:
         current_ = &materials_.definitions_[name];
         *current_ = Definition();
         current_->material.name = name;
+        current_->material.gloss.model = GlossModel::phong;
     }
 
     void read_property(std::string_view key) {
@@ -57,10 +58,12 @@ private:
         else if (key == "illum")
             gloss.illumination_model =
                 static_cast<int>(std::clamp(lines_.number_word("illum"), 0.0f, 100.0f));
+        else if (key == "Tf")
+            gloss.transmission_color = glm::clamp(color("Tf"), 0.0f, 1.0f);
         else if (key == "Pr")
-            gloss.roughness = unit_number("Pr");
+            gloss.roughness = physical_number("Pr");
         else if (key == "Pm")
-            gloss.metallic = unit_number("Pm");
+            gloss.metallic = physical_number("Pm");
         else if (key == "d")
             read_opacity();
         else if (key == "Tr")
@@ -85,6 +88,12 @@ private:
             materials_.scene_.warnings.push_back(
                 lines_.where() + ": bump and normal maps are not supported and were left out");
         materials_.has_bump_maps_ = true;
+    }
+
+    // Of the parameters that glTF has too and exporters write beside those of Phong.
+    float physical_number(const char* name) {
+        current_->material.gloss.model = GlossModel::metallic_roughness;
+        return unit_number(name);
     }
 
     float unit_number(const char* name) { return std::clamp(lines_.number_word(name), 0.0f, 1.0f); }
@@ -253,12 +262,21 @@ void MtlMaterials::load_maps(const Definition& definition) {
         material.alpha_mode = AlphaMode::mask;
 }
 
+// Glass (illum 4, 6, 7). Exporters write illum 4 for surfaces of all kinds; an index of 1 betrays
+// those.
+void set_transmission(Material& material) {
+    const int model = material.gloss.illumination_model;
+    if ((model != 4 && model != 6 && model != 7) || !(material.gloss.ior > 1)) return;
+    material.gloss.transmission = 1;
+}
+
 MaterialId MtlMaterials::find(const std::string& name) {
     auto found = definitions_.find(name);
     if (found == definitions_.end()) found = definitions_.find(std::string(without_comment(name)));
     if (found == definitions_.end()) return MaterialId::none;
     Definition& definition = found->second;
     if (definition.id == MaterialId::none) {
+        set_transmission(definition.material);
         definition.id = static_cast<MaterialId>(scene_.materials.size());
         scene_.materials.push_back(definition.material);
         found_.push_back(definition);

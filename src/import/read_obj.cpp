@@ -7,6 +7,7 @@
 #include "import/read_mtl.h"
 #include "import/text_lines.h"
 #include "import/unique_names.h"
+#include "scene/enclosure.h"
 
 #include <fmt/format.h>
 
@@ -240,6 +241,7 @@ private:
         }
         for (Material& material : scene_.materials)
             material.name = material_name(material.name, "material");
+        decide_thin(scene_);
     }
 
     void add_warnings() {

@@ -34,14 +34,14 @@ RayCount count_inside(const OpenSides& open_sides, std::span<const Hit> hits) {
 RayCount add_indirect_samples(const LitScene& lit, const OpenSides* open_sides,
                               const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
                               std::uint32_t count, PathWave& scratch,
-                              std::span<Rgb, kReplicates> sums) {
+                              std::span<Rgb, kReplicates> sums, const EndsAt* ends_at) {
     start_paths(receiver, seed, first, count, scratch);
     scratch.hits.resize(scratch.rays.size());
     lit.caster.intersect(scratch.rays, scratch.hits);
     const RayCount rays = open_sides ? count_inside(*open_sides, scratch.hits) : RayCount{};
 
     std::array<Rgb, kReplicates> radiance = {};
-    follow(lit, scratch, FirstEmission::skipped, radiance);
+    follow(lit, scratch, FirstEmission::skipped, radiance, ends_at);
     for (std::uint32_t r = 0; r < kReplicates; ++r) sums[r] += kPi * radiance[r];
     return rays;
 }

@@ -16,11 +16,11 @@ struct RayCount {
 };
 
 /// Adds the estimates of samples [first, first + count) to the sums of their replicates [lux a
-/// channel]. `open_sides` may be null.
+/// channel]. `open_sides` may be null. What paths end at early is not added here (path_wave.h).
 RayCount add_indirect_samples(const LitScene& lit, const OpenSides* open_sides,
                               const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
                               std::uint32_t count, PathWave& scratch,
-                              std::span<Rgb, kReplicates> sums);
+                              std::span<Rgb, kReplicates> sums, const EndsAt* ends_at = nullptr);
 
 /// Shoots `count` cosine-distributed rays only to see what they meet.
 RayCount probe(const LitScene& lit, const OpenSides& open_sides, const Receiver& receiver,

@@ -2,81 +2,14 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "sample_renderer/direct_light.h"
-#include "sample_renderer/indirect_light.h"
+#include "sample_renderer/shade_tasks.h"
 
 #include <algorithm>
 
 namespace chiaro {
 namespace {
 
-constexpr std::uint32_t kTaskSamples = 1024;  // a wave: large enough for packets, and cached
 constexpr std::size_t kTasksPerBody = 8;
-constexpr std::uint32_t kProbeRays = 16;
-
-// Independent numbers for the two parts of `total`, whose replicates would else vary together.
-constexpr std::uint32_t kDirectSalt = 0xd12ec7;
-constexpr std::uint32_t kIndirectSalt = 0x1d12ec7;
-
-// A piece of a request that is computed by itself, so that neither batch nor threads show in it.
-struct Task {
-    std::uint32_t request;
-    bool direct;
-    std::uint32_t first, count;
-};
-
-struct TaskResult {
-    std::array<Rgb, kReplicates> sums = {};
-    Rgb exact = Rgb(0);
-    RayCount rays;
-};
-
-void add_tasks(std::uint32_t request, bool direct, std::uint32_t first, std::uint32_t count,
-               std::vector<Task>& tasks) {
-    check(count > 0 && count % kReplicates == 0,
-          "shade: samples must be a multiple of kReplicates");
-    for (std::uint32_t done = 0; done < count; done += kTaskSamples)
-        tasks.push_back({request, direct, first + done, std::min(kTaskSamples, count - done)});
-}
-
-std::vector<Task> split_into_tasks(std::span<const ShadeRequest> requests) {
-    std::vector<Task> tasks;
-    tasks.reserve(requests.size());
-    for (std::uint32_t i = 0; i < requests.size(); ++i) {
-        const ShadeRequest& r = requests[i];
-        if (r.light != Light::indirect) add_tasks(i, true, r.first_sample, r.samples, tasks);
-        if (r.light == Light::indirect) add_tasks(i, false, r.first_sample, r.samples, tasks);
-        if (r.light == Light::total) {
-            const auto before = std::uint64_t{r.first_sample} * r.indirect_samples / r.samples;
-            add_tasks(i, false, static_cast<std::uint32_t>(before), r.indirect_samples, tasks);
-        }
-    }
-    return tasks;
-}
-
-Receiver surface_receiver(const LitScene& lit, const ShadeRequest& request) {
-    const SurfaceGeometry g = surface_geometry(lit.scene, request.where);
-    const float side = request.front ? 1.0f : -1.0f;
-    return make_receiver(lit.caster, request.where.object, g.position, side * g.geometric_normal,
-                         side * g.shading_normal);
-}
-
-TaskResult run_direct(const LitScene& lit, const OpenSides* open_sides, const Receiver& receiver,
-                      const Task& task, const ShadeRequest& request, PathWave& scratch) {
-    const std::uint32_t seed = hash32(request.seed, kDirectSalt);
-    const bool first_task = task.first == request.first_sample;
-    TaskResult result;
-    if (first_task) result.exact = exact_direct_light(lit, receiver, scratch);
-    if (!direct_light_is_exact(lit))
-        add_direct_samples(lit, receiver, seed, task.first, task.count, scratch, result.sums);
-
-    // A point in the dark may be buried; one that some light reaches is not.
-    Rgb total = result.exact;
-    for (const Rgb& sum : result.sums) total += sum;
-    if (open_sides != nullptr && first_task && request.light == Light::direct && total == Rgb(0))
-        result.rays = probe(lit, *open_sides, receiver, seed, kProbeRays, scratch);
-    return result;
-}
 
 TaskResult run_indirect(const LitScene& lit, const OpenSides* open_sides, const Receiver& receiver,
                         const Task& task, const ShadeRequest& request, PathWave& scratch) {
@@ -84,34 +17,6 @@ TaskResult run_indirect(const LitScene& lit, const OpenSides* open_sides, const 
     result.rays =
         add_indirect_samples(lit, open_sides, receiver, hash32(request.seed, kIndirectSalt),
                              task.first, task.count, scratch, result.sums);
-    return result;
-}
-
-// Means of the replicates, over all tasks of one request: direct and indirect light of one
-// replicate go together.
-ShadeResult combine(const ShadeRequest& request, std::span<const Task> tasks,
-                    std::span<const TaskResult> parts) {
-    std::array<glm::dvec3, kReplicates> means = {};
-    glm::dvec3 exact(0);
-    RayCount rays;
-    for (std::size_t t = 0; t < tasks.size(); ++t) {
-        const bool second = request.light == Light::total && !tasks[t].direct;
-        const double share =
-            kReplicates / double(second ? request.indirect_samples : request.samples);
-        for (std::uint32_t r = 0; r < kReplicates; ++r)
-            means[r] += share * glm::dvec3(parts[t].sums[r]);
-        exact += parts[t].exact;
-        rays.shot += parts[t].rays.shot;
-        rays.inside += parts[t].rays.inside;
-    }
-
-    glm::dvec3 mean(0), squares(0);
-    for (const glm::dvec3& m : means) mean += m / double(kReplicates);
-    for (const glm::dvec3& m : means) squares += (m - mean) * (m - mean);
-    ShadeResult result;
-    result.mean = Rgb(mean + exact);
-    result.variance = Rgb(squares / double(kReplicates * (kReplicates - 1)));
-    result.buried = rays.mostly_inside();
     return result;
 }
 
@@ -136,14 +41,7 @@ void shade_receivers(const LitScene& lit, const OpenSides* open_sides, int threa
         }
     });
 
-    for (std::size_t begin = 0; begin < tasks.size();) {
-        const std::uint32_t request = tasks[begin].request;
-        std::size_t end = begin;
-        while (end < tasks.size() && tasks[end].request == request) ++end;
-        results[request] =
-            combine(requests[request], {&tasks[begin], end - begin}, {&parts[begin], end - begin});
-        begin = end;
-    }
+    combine(requests, tasks, parts, results);
 }
 
 }  // namespace
@@ -153,6 +51,10 @@ PathRenderer::PathRenderer(const Scene& scene, const RayCaster& caster,
     : lit_(make_lit_scene(scene, caster, area_lights)),
       open_sides_(open_sides),
       threads_(threads) {}
+
+SampleCosts PathRenderer::typical_costs() const {
+    return {.direct = 0.12e-6f, .indirect = 0.9e-6f};
+}
 
 void PathRenderer::shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) {
     shade_receivers(lit_, open_sides_, threads_, requests, results,

@@ -21,6 +21,7 @@ public:
     PathRenderer(const Scene& scene, const RayCaster& caster, const AreaLights& area_lights,
                  const OpenSides* open_sides, int threads);
     void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) override;
+    SampleCosts typical_costs() const override;
 
 private:
     LitScene lit_;

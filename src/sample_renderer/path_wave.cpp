@@ -104,7 +104,8 @@ void PathWave::add(const Ray& ray, const Path& path) {
     paths.push_back(path);
 }
 
-void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<Rgb> sums) {
+void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<Rgb> sums,
+            const EndsAt* ends_at) {
     for (std::uint32_t bounce = 0; !wave.paths.empty(); ++bounce) {
         if (bounce > 0) {
             wave.hits.resize(wave.rays.size());
@@ -130,6 +131,7 @@ void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<
             // Light that it reflects: from a light at once, from elsewhere by the next ray.
             const Rgb reflected = path.throughput * surface.albedo;
             if (!(max_component(reflected) > 0) || lit.dark()) continue;
+            if (ends_at && (*ends_at)(path, bounce, hit, surface.receiver, reflected)) continue;
             BounceNumbers numbers(path.key, bounce);
             if (bounce > 0) {
                 path.light_choice = numbers.next();

@@ -5,6 +5,8 @@
 #include "sample_renderer/next_event.h"
 #include "sample_renderer/sequence.h"
 
+#include <functional>
+
 namespace chiaro {
 
 /// One path under way; its ray and hit stand at the same place in the wave's arrays.
@@ -55,12 +57,19 @@ struct PathWave {
 /// What a path takes of the light that the first surface it meets emits.
 enum class FirstEmission { skipped, counted };
 
+/// Asked at each surface that a path meets, before the path is lit there: true ends it, whoever is
+/// asked having added what it knows. `reflected` is the throughput after a reflection here; divided
+/// by pi, radiance over irradiance. The hit is at distance `hit.t`.
+using EndsAt = std::function<bool(const Path& path, std::uint32_t bounce, const Hit& hit,
+                                  const Receiver& met, Rgb reflected)>;
+
 /// Follows all paths of the wave to their ends and adds the radiance that each finds along its
 /// first ray, times its throughput, to sums[slot]. The first hits must be in place: the caller
 /// casts the first rays, as they are of many kinds. Two-sided Lambertian reflection; each point
 /// asks one light of each kind; next event estimation and emission met by chance are weighted by
 /// the balance heuristic (Veach and Guibas 1995); Russian roulette with survival up to 0.98, no
 /// other bound on the number of bounces.
-void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<Rgb> sums);
+void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<Rgb> sums,
+            const EndsAt* ends_at = nullptr);
 
 }  // namespace chiaro

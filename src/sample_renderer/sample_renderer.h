@@ -50,6 +50,12 @@ inline float luminance_variance(Rgb variance) {
     return deviation * deviation;
 }
 
+/// Processor time that samples take in a furnished room, to begin with [seconds].
+struct SampleCosts {
+    float direct;
+    float indirect;
+};
+
 /// The one seam. shade() may be called from the update thread only; it spreads its own work.
 class SampleRenderer {
 public:
@@ -57,6 +63,7 @@ public:
     /// One result a request; both spans of one length. The same requests give the same bits, in any
     /// batch and on any number of threads.
     virtual void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) = 0;
+    virtual SampleCosts typical_costs() const = 0;
 };
 
 }  // namespace chiaro

@@ -1,5 +1,4 @@
-// What a surface does with light. Every surface reflects as a Lambertian of its base colour; the
-// fields below `Gloss` are read from files and kept for renderers of gloss.
+// What a surface does with light, as files have it; scene/bsdf.h is what renderers ask.
 #pragma once
 
 #include "scene/texture.h"
@@ -8,18 +7,25 @@ namespace chiaro {
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
+/// Which of the parameters of Gloss count: none (the surface is a Lambertian of its base colour),
+/// those of glTF, or those of MTL.
+enum class GlossModel : std::uint8_t { none, metallic_roughness, phong };
+
 /// Parameters of the reflection that is not diffuse, as the file has them.
 struct Gloss {
-    float metallic = 0;             // [0, 1]
-    float roughness = 1;            // [0, 1], perceptual
-    TextureUse metallic_roughness;  // B metallic, G roughness
-    Rgb specular = Rgb(0);          // MTL Ks
-    float shininess = 0;            // MTL Ns
-    int illumination_model = 2;     // MTL illum
-    float ior = 1.5f;               // KHR_materials_ior, MTL Ni
-    float specular_factor = 1;      // KHR_materials_specular
-    Rgb specular_color = Rgb(1);    // KHR_materials_specular
-    float transmission = 0;         // KHR_materials_transmission, [0, 1]
+    GlossModel model = GlossModel::none;
+    float metallic = 0;               // [0, 1]
+    float roughness = 1;              // [0, 1], perceptual
+    TextureUse metallic_roughness;    // B metallic, G roughness
+    Rgb specular = Rgb(0);            // MTL Ks
+    float shininess = 0;              // MTL Ns
+    int illumination_model = 2;       // MTL illum
+    float ior = 1.5f;                 // KHR_materials_ior, MTL Ni
+    float specular_factor = 1;        // KHR_materials_specular
+    Rgb specular_color = Rgb(1);      // KHR_materials_specular
+    float transmission = 0;           // KHR_materials_transmission; MTL illum 4, 6, 7: 1
+    Rgb transmission_color = Rgb(1);  // MTL Tf
+    bool thin = true;  // light goes straight on, as through a pane; false: the surface of a solid
 };
 
 struct Material {

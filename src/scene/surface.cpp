@@ -134,6 +134,17 @@ float opacity(const Scene& scene, const SurfacePoint& point) {
     return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
 }
 
+Vec2 metallic_roughness(const Scene& scene, const SurfacePoint& point) {
+    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
+    const Primitive& primitive = mesh.primitives[point.primitive];
+    const Gloss& gloss = scene.material(primitive.material).gloss;
+    const Vec2 factors(gloss.metallic, gloss.roughness);
+    if (!gloss.metallic_roughness.used()) return factors;
+    const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
+    const Vec4 texel = texture_value(scene, gloss.metallic_roughness, mesh, primitive, w);
+    return factors * Vec2(texel.b, texel.g);
+}
+
 Rgb mean_reflectance(const Scene& scene, const Material& material) {
     const TextureUse& use = material.base_color_texture;
     return use.used() ? material.base_color * mean_color(scene.texture(use.texture))

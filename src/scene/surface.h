@@ -67,6 +67,9 @@ Vec4 base_color(const Scene& scene, const SurfacePoint& point);
 /// opaque, all or nothing where it is masked, its alpha where it is blended.
 float opacity(const Scene& scene, const SurfacePoint& point);
 
+/// Metallic and roughness at the point, in this order, each factor x texture (glTF); linear.
+Vec2 metallic_roughness(const Scene& scene, const SurfacePoint& point);
+
 /// Mean of base_color() over a material's texture, vertex colours aside.
 Rgb mean_reflectance(const Scene& scene, const Material& material);
 

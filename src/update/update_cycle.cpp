@@ -26,10 +26,6 @@ std::vector<ChannelPlan> plan_channels(const UpdateSettings& settings, const Sce
              .zero_is_buried = reflects}};
 }
 
-// Costs before any were measured, and for good in cycles of fixed size [seconds a sample].
-constexpr double kDirectCost = 0.12e-6;
-constexpr double kIndirectCost = 0.9e-6;
-
 // A cycle of fixed size asks for about as much as this.
 constexpr double kFixedFirstPictureSeconds = 0.15;
 
@@ -56,8 +52,10 @@ UpdateCycle::UpdateCycle(const RayCaster& rays, SampleRenderer& renderer, OpenSi
       front_(plans_.size()) {
     for (std::size_t c = 0; c < plans_.size(); ++c) {
         gains_.first_samples[c] = plans_[c].first_samples;
+        // Before any costs were measured, and for good in cycles of fixed size.
+        const SampleCosts costs = renderer.typical_costs();
         gains_.seconds_a_sample[c] =
-            static_cast<float>(plans_[c].light == Light::direct ? kDirectCost : kIndirectCost);
+            plans_[c].light == Light::direct ? costs.direct : costs.indirect;
         gains_.zero_is_doubtful[c] = plans_[c].zero_is_buried;
     }
     gains_.scale.irradiance = settings.aov == Aov::irradiance;

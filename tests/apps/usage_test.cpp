@@ -66,7 +66,7 @@ TEST(Usage, EachWrongOptionOfAPictureIsNamed) {
         {"--time", "nan"},
         {"--time", "soon"},
         {"--renderer", "magic"},
-        {"--renderer", "gather"},
+        {"--renderer", "bidirectional"},
         {"--seed", "-1"},
         {"--seed", "x"},
         {"--exposure", "nan"},

@@ -267,6 +267,19 @@ TEST(ReadGltf, AMaterialsFieldsAreReadAsTheyStand) {
     EXPECT_EQ(m.gloss.specular_factor, 0.7f);
     EXPECT_EQ(m.gloss.specular_color, Rgb(1, 0.9f, 0.8f));
     EXPECT_EQ(m.gloss.transmission, 0.6f);
+    EXPECT_EQ(m.gloss.model, GlossModel::metallic_roughness);
+    EXPECT_TRUE(m.gloss.thin);
+}
+
+// KHR_materials_volume: the surface of a solid where the thickness is above 0.
+TEST(ReadGltf, AThicknessMakesGlassSolid) {
+    for (const double thickness : {0.0, 0.1}) {
+        const Material m = material_of(
+            textured_triangle({{"extensions",
+                                {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                                 {"KHR_materials_volume", {{"thicknessFactor", thickness}}}}}}));
+        EXPECT_EQ(m.gloss.thin, thickness == 0);
+    }
 }
 
 TEST(ReadGltf, ATextureKeepsItsSamplerAndItsUseTheTransform) {

@@ -20,7 +20,7 @@ Material material_of(const TempFolder& folder, const std::string& properties) {
 TEST(ReadMtl, ColoursLightAndGlossAreReadAsTheyStand) {
     const Material m = material_of(TempFolder(),
                                    "Kd 0.1 0.2 0.3 # rgb\nKs .4\n\tKe 17 12 4\nNs 50\nNi 1.3\n"
-                                   "illum 5\nPr 0.25\nPm 1\nTf 1 1 1\n");
+                                   "illum 5\nPr 0.25\nPm 1\nTf 1 .5 0\n");
     EXPECT_EQ(m.name, "m");
     EXPECT_EQ(m.base_color, Rgb(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(m.emission, Rgb(17, 12, 4));
@@ -32,6 +32,33 @@ TEST(ReadMtl, ColoursLightAndGlossAreReadAsTheyStand) {
     EXPECT_EQ(m.gloss.illumination_model, 5);
     EXPECT_EQ(m.gloss.roughness, 0.25f);
     EXPECT_EQ(m.gloss.metallic, 1);
+    EXPECT_EQ(m.gloss.transmission_color, Rgb(1, 0.5f, 0));
+    EXPECT_EQ(m.gloss.model, GlossModel::metallic_roughness);
+    EXPECT_EQ(material_of(TempFolder(), "Ks 1 1 1\n").gloss.model, GlossModel::phong);
+}
+
+// illum 4, 6 and 7 are glass; an index of 1 is that of other surfaces.
+TEST(ReadMtl, GlassTransmits) {
+    const TempFolder folder;
+    for (const std::string model : {"4", "6", "7"}) {
+        const Material m = material_of(folder, "d 0.1\nNi 1.5\nillum " + model + "\n");
+        EXPECT_EQ(m.gloss.transmission, 1);
+        EXPECT_TRUE(m.gloss.thin);  // a single square encloses nothing
+    }
+    for (const std::string other : {"Ni 1.0\nillum 4\n", "Ni 1.5\nillum 2\n"}) {
+        const Material m = material_of(folder, "d 0.1\n" + other);
+        EXPECT_EQ(m.gloss.transmission, 0);
+        EXPECT_EQ(m.alpha_mode, AlphaMode::blend);
+    }
+}
+
+TEST(ReadMtl, GlassThatEnclosesAVolumeIsSolid) {
+    const TempFolder folder;
+    folder.write("m.mtl", "newmtl m\nillum 7\n");
+    const Scene scene = folder.load("a.obj",
+                                    "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                    "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    EXPECT_FALSE(scene.materials[0].gloss.thin);
 }
 
 TEST(ReadMtl, OpacityBelowOneBlends) {

@@ -12,6 +12,7 @@ namespace {
 class ShadowEdge : public SampleRenderer {
 public:
     explicit ShadowEdge(const Scene& scene) : scene_(&scene) {}
+    SampleCosts typical_costs() const override { return {1e-7f, 1e-6f}; }
     void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) override {
         for (std::size_t i = 0; i < requests.size(); ++i) {
             const Vec3 p = surface_geometry(*scene_, requests[i].where).position;

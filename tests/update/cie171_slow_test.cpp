@@ -117,6 +117,19 @@ TEST_P(Interreflection, Mean) {
     }
 }
 
+// By rays that end in cells: within 2 % too, up to rho = 0.9, where errors of cells would add up if
+// cells were filled from each other; they are filled by traced paths.
+TEST(Cie171, InterreflectionGathered) {
+    for (const float rho : {0.5f, 0.8f, 0.9f}) {
+        Studio studio(cube(rho), fixed_size(Scheme::best), tiny::Rendering::gather);
+        const SquareView view = down_on(Vec3(0), 2, 80, 20);
+        studio.cycle.look_from(view.view());
+        studio.run(40);
+        const double expected = 10'000 * rho / (96 * (1 - double(rho))) + 10'000.0 / 96;
+        EXPECT_NEAR(luminance(tiny::mean_of(studio.cycle.picture())) / expected, 1, 0.02) << rho;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Cie171, Interreflection, testing::Values(Scheme::best, Scheme::paper),
                          tiny::scheme_name);
 

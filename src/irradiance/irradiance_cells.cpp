@@ -1,0 +1,128 @@
+#include "irradiance/irradiance_cells.h"
+
+#include "base/error.h"
+#include "base/random.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chiaro {
+namespace {
+
+constexpr float kCellsAcross = 60;
+
+// A ray must be this many times as long as the cell in which it ends.
+constexpr float kLengthOverSize = 2;
+
+// How far jitter tilts a normal: cells that face apart blend over about this part of a right angle.
+constexpr float kTilt = 0.2f;
+
+// Cells are numbered from the grid's corner, which lies this many of them outside of the scene, so
+// that jitter never leads below zero.
+constexpr int kMargin = 2;
+constexpr int kBitsAnAxis = 18;
+static_assert((1 << kBitsAnAxis) > (static_cast<int>(kCellsAcross) + 2 * kMargin)
+                                       << CellGrid::kLevels);
+
+// The axis that a normal is nearest to, and its sign: 0 to 5.
+std::uint64_t facing(Vec3 n) {
+    const Vec3 a = glm::abs(n);
+    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    return static_cast<std::uint64_t>(2 * axis + (n[axis] < 0 ? 1 : 0));
+}
+
+}  // namespace
+
+float CellGrid::shortest() const {
+    return kLengthOverSize * std::ldexp(size, 1 - kLevels);
+}
+
+CellGrid make_cell_grid(Vec3 low, Vec3 high) {
+    const float size = std::max(glm::length(high - low), 1e-30f) / kCellsAcross;
+    return {low - kMargin * size, size};
+}
+
+std::optional<CellKey> cell_at(const CellGrid& grid, Vec3 position, Vec3 normal, float distance,
+                               Vec3 jitter) {
+    if (!(distance >= grid.shortest())) return std::nullopt;
+    const int halvings = std::ilogb(kLengthOverSize * grid.size / distance) + 1;
+    const int level = std::clamp(halvings, 0, CellGrid::kLevels - 1);
+    const float size = std::ldexp(grid.size, -level);
+
+    const Vec3 shift = jitter - 0.5f;
+    const Vec3 along = shift - glm::dot(shift, normal) * normal;
+    const Vec3 place = (position - grid.origin) / size + along;
+    constexpr float kLast = (1 << kBitsAnAxis) - 1;
+    std::uint64_t key = facing(normal + kTilt * Vec3(shift.y, shift.z, shift.x));
+    key = key << 3 | static_cast<std::uint64_t>(level);
+    for (int axis = 0; axis < 3; ++axis)
+        key = key << kBitsAnAxis |
+              static_cast<std::uint64_t>(std::clamp(std::floor(place[axis]), 0.0f, kLast));
+    return CellKey{key};
+}
+
+void CellSamples::add(Rgb irradiance) {
+    ++samples;
+    const float before = luminance(mean);
+    mean += (irradiance - mean) / static_cast<float>(samples);
+    deviations += (luminance(irradiance) - before) * (luminance(irradiance) - luminance(mean));
+}
+
+std::size_t IrradianceCells::slot_of(CellKey key) const {
+    const auto bits = static_cast<std::uint64_t>(key);
+    std::size_t i =
+        hash32(static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32));
+    for (;; ++i) {
+        i &= slots_.size() - 1;
+        if (slots_[i] == CellId::none || cell(slots_[i]).key == key) return i;
+    }
+}
+
+CellId IrradianceCells::find(CellKey key) const {
+    return slots_.empty() ? CellId::none : slots_[slot_of(key)];
+}
+
+CellId IrradianceCells::find_or_add(CellKey key) {
+    if (2 * (cells_.size() + 1) > slots_.size()) grow();
+    CellId& slot = slots_[slot_of(key)];
+    if (slot != CellId::none) return slot;
+    slot = static_cast<CellId>(cells_.size());
+    cells_.push_back({});
+    cells_.back().key = key;
+    return slot;
+}
+
+void IrradianceCells::grow() {
+    slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), CellId::none);
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+        slots_[slot_of(cells_[i].key)] = static_cast<CellId>(i);
+}
+
+void IrradianceCells::store(CellId id, const CellSamples& added, std::uint32_t version) {
+    check(added.samples > 0 && is_finite(added.mean) && std::isfinite(added.deviations),
+          "IrradianceCells: samples are not usable");
+    IrradianceCell& c = cells_[index_of(id)];
+    if (version > c.version) c.samples = 0;
+    if (c.samples == 0) {
+        c.mean = Rgb(0);
+        c.deviations = 0;
+        c.version = version;
+    }
+    // Two sets' deviations add, with those between their means (Chan et al. 1979).
+    const auto before = static_cast<float>(c.samples), more = static_cast<float>(added.samples);
+    const float apart = luminance(added.mean) - luminance(c.mean);
+    c.deviations += added.deviations + apart * apart * before * more / (before + more);
+    c.mean += (added.mean - c.mean) * (more / (before + more));
+    c.samples += added.samples;
+}
+
+void IrradianceCells::clear() {
+    cells_.clear();
+    slots_.clear();
+}
+
+std::size_t IrradianceCells::bytes() const {
+    return cells_.capacity() * sizeof(IrradianceCell) + slots_.capacity() * sizeof(CellId);
+}
+
+}  // namespace chiaro

@@ -1,0 +1,99 @@
+// A lazy hash of surface cells that ends gathered rays: what light falls on a surface, roughly, so
+// that a ray need not be traced to its end (design, section 6; the idea of irradiance caching, Ward
+// et al. 1988, in world-space cells as Binder et al. 2018 hash them).
+#pragma once
+
+#include "base/color.h"
+#include "base/ids.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace chiaro {
+
+/// A cell's place, size and facing in 64 bits; equal keys mean the same cell.
+enum class CellKey : std::uint64_t {};
+/// Position in the array of cells; valid until clear().
+enum class CellId : std::uint32_t { none = 0xffff'ffff };
+
+/// How space is divided. Cells halve in size as rays get shorter, so that a cell never looks
+/// large from where it is seen and contacts get small ones.
+struct CellGrid {
+    static constexpr int kLevels = 8;
+
+    Vec3 origin = Vec3(0);  // a corner of the scene [scene units]
+    float size = 1;         // of the largest cells; others are size / 2^level, level < kLevels
+
+    /// Shortest ray that may end in a cell; shorter ones are to be traced on.
+    float shortest() const;
+};
+
+/// A grid of cells of 1/60 of the diagonal of `low` to `high` (scene bounds, world space).
+CellGrid make_cell_grid(Vec3 low, Vec3 high);
+
+/// The cell in which a ray of length `distance` ends that meets a surface at `position`, whose
+/// `normal` (unit, world) is on the side that the ray came from; nothing if the ray is too short.
+/// `jitter`, in [0, 1)^3, moves the look-up by up to half a cell along the surface and tilts the
+/// normal a little, so that the mean of many look-ups interpolates between cells.
+std::optional<CellKey> cell_at(const CellGrid& grid, Vec3 position, Vec3 normal, float distance,
+                               Vec3 jitter);
+
+/// What is known of a cell.
+struct IrradianceCell {
+    CellKey key{};
+    Rgb mean = Rgb(0);     // irradiance, from lights and from elsewhere [lux a channel]
+    float deviations = 0;  // sum of squared deviations of samples' luminance [lux^2]
+    std::uint32_t samples = 0;
+    std::uint32_t hits = 0;     // rays that ended here
+    std::uint32_t version = 0;  // of the scene at its oldest sample
+
+    /// Of the mean's luminance [lux^2]. Needs two samples.
+    float variance() const {
+        const auto n = static_cast<float>(samples);
+        return deviations / (n * (n - 1));
+    }
+};
+
+/// Some samples of a cell's irradiance together.
+struct CellSamples {
+    Rgb mean = Rgb(0);
+    float deviations = 0;
+    std::uint32_t samples = 0;
+
+    void add(Rgb irradiance);
+};
+
+/// All cells of a session.
+///
+/// Thread: find() and cell() from any number at once, while nobody calls the others.
+class IrradianceCells {
+public:
+    explicit IrradianceCells(const CellGrid& grid) : grid_(grid) {}
+
+    const CellGrid& grid() const { return grid_; }
+    std::span<const IrradianceCell> cells() const { return cells_; }
+    const IrradianceCell& cell(CellId id) const { return cells_[index_of(id)]; }
+
+    CellId find(CellKey key) const;
+    /// The cell of a key, made empty if there is none.
+    CellId find_or_add(CellKey key);
+    void count_hits(CellId id, std::uint32_t hits) { cells_[index_of(id)].hits += hits; }
+    /// Merges samples taken under `version` of the scene; older ones make way (design, section 5).
+    /// Checks: samples > 0, finite.
+    void store(CellId id, const CellSamples& samples, std::uint32_t version);
+
+    void clear();
+    std::size_t bytes() const;
+
+private:
+    std::size_t slot_of(CellKey key) const;
+    void grow();
+
+    CellGrid grid_;
+    std::vector<IrradianceCell> cells_;
+    std::vector<CellId> slots_;  // open addressing, a power of two, at most half full
+};
+
+}  // namespace chiaro

@@ -1,0 +1,231 @@
+#include "sample_renderer/gather_renderer.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "sample_renderer/direct_light.h"
+#include "sample_renderer/indirect_light.h"
+#include "sample_renderer/shade_tasks.h"
+
+#include <algorithm>
+
+namespace chiaro {
+namespace {
+
+// Samples between two updates of the cells.
+constexpr std::uint32_t kBatchSamples = 16384;
+
+// A cell is filled once this many rays have asked for it: about as many paths as filling it costs.
+constexpr std::uint32_t kAskedBeforeFilled = 8;
+
+// One unit of filling: this many direct samples and as many traced paths from one place.
+constexpr std::uint32_t kSamplesAUnit = 4;
+constexpr std::uint32_t kFirstUnits = 2;
+constexpr std::uint32_t kMostUnits = 512;
+// Another unit for every so many rays that end in the cell: filling then costs about half of what
+// the rays cost.
+constexpr std::uint32_t kRaysAUnit = 32;
+
+// One in so many rays that end in a cell is noted, and stands for all of them.
+constexpr std::uint32_t kNoted = 8;
+
+// A ray that asked for a cell, and where it met the surface.
+struct Asking {
+    CellKey key;
+    std::uint32_t rays;  // that it stands for
+    Receiver place;
+};
+
+// What of one request's estimate hangs on each cell: errors of a cell are common to all rays that
+// end in it.
+class CellShares {
+public:
+    void clear() {
+        ids_.assign(kSlots, CellId::none);
+        shares_.assign(kSlots, 0.0f);
+    }
+    void add(CellId id, float share) {
+        // Full only with more cells than rays in a wave.
+        for (std::size_t i = index_of(id) * 0x9e3779b1u >> 7;; ++i) {
+            i %= kSlots;
+            if (ids_[i] != id && ids_[i] != CellId::none) continue;
+            ids_[i] = id;
+            shares_[i] += share;
+            return;
+        }
+    }
+    // Variance of the sum of shares times the cells' luminance.
+    float variance(const IrradianceCells& cells) const {
+        float sum = 0;
+        for (std::size_t i = 0; i < kSlots; ++i)
+            if (ids_[i] != CellId::none)
+                sum += shares_[i] * shares_[i] * cells.cell(ids_[i]).variance();
+        return sum;
+    }
+
+private:
+    static constexpr std::size_t kSlots = 4096;
+    std::vector<CellId> ids_;
+    std::vector<float> shares_;
+};
+
+struct Scratch {
+    PathWave wave;
+    CellShares shares;
+};
+
+// The indirect part of a request by rays that end in cells; appends to `asking`.
+TaskResult gather(const LitScene& lit, const OpenSides* open_sides, const IrradianceCells& cells,
+                  const Receiver& receiver, const Task& task, const ShadeRequest& request,
+                  Scratch& scratch, std::vector<Asking>& asking) {
+    scratch.shares.clear();
+    TaskResult result;
+    std::array<Rgb, kReplicates> ended = {};
+    const EndsAt ends_at = [&](const Path& path, std::uint32_t bounce, const Hit& hit,
+                               const Receiver& met, Rgb reflected) {
+        BounceNumbers numbers(hash32(path.key, 0xce11U), bounce);
+        const Vec3 jitter(numbers.next(), numbers.next(), numbers.next());
+        const auto key = cell_at(cells.grid(), met.position, met.geometric_normal, hit.t, jitter);
+        if (!key) return false;
+        const CellId id = cells.find(*key);
+        if (id == CellId::none || cells.cell(id).samples == 0) {
+            asking.push_back({*key, 1, met});
+            return false;
+        }
+        if (numbers.next() * kNoted < 1) asking.push_back({*key, kNoted, met});
+        const Rgb weight = reflected * (1 / kPi);
+        ended[path.slot] += weight * cells.cell(id).mean;
+        scratch.shares.add(id, luminance(weight));
+        return true;
+    };
+    result.rays =
+        add_indirect_samples(lit, open_sides, receiver, hash32(request.seed, kIndirectSalt),
+                             task.first, task.count, scratch.wave, result.sums, &ends_at);
+    for (std::uint32_t r = 0; r < kReplicates; ++r) result.sums[r] += kPi * ended[r];
+    result.shared_variance = kPi * kPi * scratch.shares.variance(cells);
+    return result;
+}
+
+// A cell that is to be filled further, and the rays that asked for it: askings[first, last).
+struct Filling {
+    CellId cell;
+    std::uint32_t units;
+    std::size_t first, last;
+};
+
+std::uint32_t units_wanted(std::uint32_t hits) {
+    if (hits < kAskedBeforeFilled) return 0;
+    return std::clamp(hits / kRaysAUnit, kFirstUnits, kMostUnits);
+}
+
+// Sorts what was asked for by cell and tells which cells have earned more samples. Doubling them at
+// least keeps their number in step with the rays at few visits.
+std::vector<Filling> plan(IrradianceCells& cells, std::vector<Asking>& asking) {
+    std::vector<std::pair<CellId, std::uint32_t>> order(asking.size());
+    for (std::uint32_t i = 0; i < asking.size(); ++i) {
+        order[i] = {cells.find_or_add(asking[i].key), i};
+        cells.count_hits(order[i].first, asking[i].rays);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<Asking> sorted;
+    sorted.reserve(asking.size());
+    for (const auto& [cell, i] : order) sorted.push_back(asking[i]);
+    asking = std::move(sorted);
+
+    std::vector<Filling> fillings;
+    for (std::size_t first = 0; first < order.size();) {
+        const CellId id = order[first].first;
+        std::size_t last = first;
+        while (last < order.size() && order[last].first == id) ++last;
+        const IrradianceCell& cell = cells.cell(id);
+        const std::uint32_t wanted = units_wanted(cell.hits);
+        if (wanted >= std::max(2 * cell.samples, kFirstUnits))
+            fillings.push_back({id, wanted - cell.samples, first, last});
+        first = last;
+    }
+    return fillings;
+}
+
+// Irradiance at one place by samples [first, first + kSamplesAUnit) of everything [lux a channel].
+Rgb sample_irradiance(const LitScene& lit, const Receiver& place, std::uint32_t seed,
+                      std::uint32_t first, PathWave& scratch) {
+    std::array<Rgb, kReplicates> sums = {};
+    const Rgb exact = exact_direct_light(lit, place, scratch);
+    if (!direct_light_is_exact(lit))
+        add_direct_samples(lit, place, hash32(seed, kDirectSalt), first, kSamplesAUnit, scratch,
+                           sums);
+    add_indirect_samples(lit, nullptr, place, hash32(seed, kIndirectSalt), first, kSamplesAUnit,
+                         scratch, sums);
+    Rgb sum(0);
+    for (const Rgb& s : sums) sum += s;
+    return exact + sum * (1.0f / kSamplesAUnit);
+}
+
+CellSamples fill(const LitScene& lit, const IrradianceCell& cell, const Filling& filling,
+                 std::span<const Asking> asking, PathWave& scratch) {
+    const auto bits = static_cast<std::uint64_t>(cell.key);
+    const std::uint32_t seed =
+        hash32(static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32));
+    const std::size_t places = filling.last - filling.first;
+    CellSamples samples;
+    for (std::uint32_t u = 0; u < filling.units; ++u) {
+        const Receiver& place = asking[filling.first + (places * u / filling.units) % places].place;
+        // The cell's sequence goes on from place to place, so that it is spread well over all.
+        samples.add(
+            sample_irradiance(lit, place, seed, kSamplesAUnit * (cell.samples + u), scratch));
+    }
+    return samples;
+}
+
+}  // namespace
+
+GatherRenderer::GatherRenderer(const Scene& scene, const RayCaster& caster,
+                               const AreaLights& area_lights, const OpenSides* open_sides,
+                               int threads)
+    : lit_(make_lit_scene(scene, caster, area_lights)),
+      open_sides_(open_sides),
+      threads_(threads),
+      cells_(make_cell_grid(bounds(scene).low, bounds(scene).high)) {}
+
+SampleCosts GatherRenderer::typical_costs() const {
+    return {.direct = 0.12e-6f, .indirect = 0.6e-6f};
+}
+
+void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) {
+    check(requests.size() == results.size(), "shade: one result a request");
+    const std::vector<Task> tasks = split_into_tasks(requests);
+    std::vector<TaskResult> parts(tasks.size());
+
+    for (std::size_t begin = 0; begin < tasks.size();) {
+        // A batch of tasks against the cells as they are.
+        std::size_t end = begin;
+        for (std::uint32_t samples = 0; end < tasks.size() && samples < kBatchSamples; ++end)
+            samples += tasks[end].direct ? 0 : tasks[end].count;
+        std::vector<std::vector<Asking>> asked(end - begin);
+        parallel_for(threads_, end - begin, [&](std::size_t i) {
+            thread_local Scratch scratch;
+            const Task& task = tasks[begin + i];
+            const ShadeRequest& request = requests[task.request];
+            const Receiver receiver = surface_receiver(lit_, request);
+            parts[begin + i] =
+                task.direct
+                    ? run_direct(lit_, open_sides_, receiver, task, request, scratch.wave)
+                    : gather(lit_, open_sides_, cells_, receiver, task, request, scratch, asked[i]);
+        });
+
+        // What it asked for, in the order of tasks.
+        std::vector<Asking> asking;
+        for (const auto& some : asked) asking.insert(asking.end(), some.begin(), some.end());
+        const std::vector<Filling> fillings = plan(cells_, asking);
+        std::vector<CellSamples> filled(fillings.size());
+        parallel_for(threads_, fillings.size(), [&](std::size_t i) {
+            thread_local PathWave scratch;
+            filled[i] = fill(lit_, cells_.cell(fillings[i].cell), fillings[i], asking, scratch);
+        });
+        for (std::size_t i = 0; i < fillings.size(); ++i)
+            cells_.store(fillings[i].cell, filled[i], version_);
+        begin = end;
+    }
+    combine(requests, tasks, parts, results);
+}
+
+}  // namespace chiaro

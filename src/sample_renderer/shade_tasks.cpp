@@ -1,0 +1,105 @@
+#include "sample_renderer/shade_tasks.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+
+namespace chiaro {
+namespace {
+
+constexpr std::uint32_t kTaskSamples = 1024;  // a wave: large enough for packets, and cached
+constexpr std::uint32_t kProbeRays = 16;
+
+void add_tasks(std::uint32_t request, bool direct, std::uint32_t first, std::uint32_t count,
+               std::vector<Task>& tasks) {
+    check(count > 0 && count % kReplicates == 0,
+          "shade: samples must be a multiple of kReplicates");
+    for (std::uint32_t done = 0; done < count; done += kTaskSamples)
+        tasks.push_back({request, direct, first + done, std::min(kTaskSamples, count - done)});
+}
+
+// Means of the replicates, over all tasks of one request: direct and indirect light of one
+// replicate go together.
+ShadeResult combine_one(const ShadeRequest& request, std::span<const Task> tasks,
+                        std::span<const TaskResult> parts) {
+    std::array<glm::dvec3, kReplicates> means = {};
+    glm::dvec3 exact(0);
+    RayCount rays;
+    double shared = 0;
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+        const bool second = request.light == Light::total && !tasks[t].direct;
+        const double share =
+            kReplicates / double(second ? request.indirect_samples : request.samples);
+        for (std::uint32_t r = 0; r < kReplicates; ++r)
+            means[r] += share * glm::dvec3(parts[t].sums[r]);
+        const double part = share / kReplicates;
+        shared += part * part * parts[t].shared_variance;
+        exact += parts[t].exact;
+        rays.shot += parts[t].rays.shot;
+        rays.inside += parts[t].rays.inside;
+    }
+
+    glm::dvec3 mean(0), squares(0);
+    for (const glm::dvec3& m : means) mean += m / double(kReplicates);
+    for (const glm::dvec3& m : means) squares += (m - mean) * (m - mean);
+    ShadeResult result;
+    result.mean = Rgb(mean + exact);
+    result.variance = Rgb(squares / double(kReplicates * (kReplicates - 1)) + shared);
+    result.buried = rays.mostly_inside();
+    return result;
+}
+
+}  // namespace
+
+std::vector<Task> split_into_tasks(std::span<const ShadeRequest> requests) {
+    std::vector<Task> tasks;
+    tasks.reserve(requests.size());
+    for (std::uint32_t i = 0; i < requests.size(); ++i) {
+        const ShadeRequest& r = requests[i];
+        if (r.light != Light::indirect) add_tasks(i, true, r.first_sample, r.samples, tasks);
+        if (r.light == Light::indirect) add_tasks(i, false, r.first_sample, r.samples, tasks);
+        if (r.light == Light::total) {
+            const auto before = std::uint64_t{r.first_sample} * r.indirect_samples / r.samples;
+            add_tasks(i, false, static_cast<std::uint32_t>(before), r.indirect_samples, tasks);
+        }
+    }
+    return tasks;
+}
+
+Receiver surface_receiver(const LitScene& lit, const ShadeRequest& request) {
+    const SurfaceGeometry g = surface_geometry(lit.scene, request.where);
+    const float side = request.front ? 1.0f : -1.0f;
+    return make_receiver(lit.caster, request.where.object, g.position, side * g.geometric_normal,
+                         side * g.shading_normal);
+}
+
+TaskResult run_direct(const LitScene& lit, const OpenSides* open_sides, const Receiver& receiver,
+                      const Task& task, const ShadeRequest& request, PathWave& scratch) {
+    const std::uint32_t seed = hash32(request.seed, kDirectSalt);
+    const bool first_task = task.first == request.first_sample;
+    TaskResult result;
+    if (first_task) result.exact = exact_direct_light(lit, receiver, scratch);
+    if (!direct_light_is_exact(lit))
+        add_direct_samples(lit, receiver, seed, task.first, task.count, scratch, result.sums);
+
+    // A point in the dark may be buried; one that some light reaches is not.
+    Rgb total = result.exact;
+    for (const Rgb& sum : result.sums) total += sum;
+    if (open_sides != nullptr && first_task && request.light == Light::direct && total == Rgb(0))
+        result.rays = probe(lit, *open_sides, receiver, seed, kProbeRays, scratch);
+    return result;
+}
+
+void combine(std::span<const ShadeRequest> requests, std::span<const Task> tasks,
+             std::span<const TaskResult> parts, std::span<ShadeResult> results) {
+    for (std::size_t begin = 0; begin < tasks.size();) {
+        const std::uint32_t request = tasks[begin].request;
+        std::size_t end = begin;
+        while (end < tasks.size() && tasks[end].request == request) ++end;
+        results[request] = combine_one(requests[request], tasks.subspan(begin, end - begin),
+                                       parts.subspan(begin, end - begin));
+        begin = end;
+    }
+}
+
+}  // namespace chiaro

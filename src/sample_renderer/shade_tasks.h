@@ -1,0 +1,42 @@
+// Requests cut into pieces that threads may take in any order, and put together again; shared by
+// all renderers.
+#pragma once
+
+#include "sample_renderer/direct_light.h"
+#include "sample_renderer/indirect_light.h"
+
+namespace chiaro {
+
+// Independent numbers for the two parts of `total`, whose replicates would else vary together.
+inline constexpr std::uint32_t kDirectSalt = 0xd12ec7;
+inline constexpr std::uint32_t kIndirectSalt = 0x1d12ec7;
+
+/// A piece of a request that is computed by itself, so that neither batch nor threads show in it.
+struct Task {
+    std::uint32_t request;
+    bool direct;
+    std::uint32_t first, count;
+};
+
+struct TaskResult {
+    std::array<Rgb, kReplicates> sums = {};
+    Rgb exact = Rgb(0);
+    RayCount rays;
+    float shared_variance = 0;  // of the sum's luminance, by errors that all replicates share
+};
+
+/// In the order of requests. Checks: samples are multiples of kReplicates.
+std::vector<Task> split_into_tasks(std::span<const ShadeRequest> requests);
+
+/// Where a request's surface point receives light.
+Receiver surface_receiver(const LitScene& lit, const ShadeRequest& request);
+
+/// The direct part of a request, by light samples.
+TaskResult run_direct(const LitScene& lit, const OpenSides* open_sides, const Receiver& receiver,
+                      const Task& task, const ShadeRequest& request, PathWave& scratch);
+
+/// One result a request, from all of its parts.
+void combine(std::span<const ShadeRequest> requests, std::span<const Task> tasks,
+             std::span<const TaskResult> parts, std::span<ShadeResult> results);
+
+}  // namespace chiaro

@@ -1,0 +1,102 @@
+// From the parameters that files have to those of the model.
+
+#include "scene/bsdf.h"
+#include "scene/fresnel.h"
+
+namespace chiaro {
+namespace {
+
+constexpr float kSmoothAlpha = kSmoothRoughness * kSmoothRoughness;
+
+// From here on a file that asks for traced reflections (illum 3 to 7) wants them sharp: the
+// exponent is for the highlights of lamps.
+constexpr float kSharpShininess = 100;
+
+// Indices of refraction that glass is computed for. Clear bodies of a lower one hardly bend light.
+constexpr float kLeastIndex = 1.01f;
+constexpr float kLargestIndex = 3;
+
+float alpha_or_smooth(float alpha) {
+    return alpha < kSmoothAlpha ? 0.0f : std::min(alpha, 1.0f);
+}
+
+// Width of the facets' distribution whose highlight is about that of Phong's cosine to the power
+// `shininess` (Walter et al. 2007).
+float phong_alpha(float shininess) {
+    return std::sqrt(2 / (std::max(shininess, 0.0f) + 2));
+}
+
+void set_glass(const Gloss& gloss, float share, Rgb tint, bool front, Bsdf& b) {
+    if (!(share > 0)) return;
+    const float index = std::clamp(gloss.ior, kLeastIndex, kLargestIndex);
+    b.glass = std::min(share, 1.0f);
+    b.tint = glm::clamp(tint, 0.0f, 1.0f);
+    b.thin = gloss.thin;
+    b.eta = gloss.thin || front ? index : 1 / index;
+}
+
+// glTF 2.0, appendix B, with KHR_materials_ior, _specular and _transmission. The glass takes its
+// reflectance from the index alone.
+Bsdf from_metallic_roughness(const Gloss& gloss, Rgb color, Vec2 factors, bool front) {
+    const float metallic = std::clamp(factors.x, 0.0f, 1.0f);
+    const float roughness = std::clamp(factors.y, 0.0f, 1.0f);
+    Bsdf b;
+    b.alpha = alpha_or_smooth(roughness * roughness);
+
+    // An index of 0 stands for facets that reflect all (KHR_materials_ior); nothing passes these.
+    const float transmission = gloss.ior < 1 ? 0.0f : std::clamp(gloss.transmission, 0.0f, 1.0f);
+    set_glass(gloss, (1 - metallic) * transmission, color * gloss.transmission_color, front, b);
+    if (b.glass == 1) return b;
+
+    // The rest: metal, and a base under clear facets.
+    const float metal = metallic / (1 - b.glass);
+    const float factor = std::clamp(gloss.specular_factor, 0.0f, 1.0f);
+    const Rgb clear =
+        glm::clamp(normal_reflectance(gloss.ior) * gloss.specular_color, 0.0f, 1.0f) * factor;
+    b.diffuse = (1 - metal) * color;
+    b.f0 = glm::mix(clear, color, metal);
+    b.f90 = Rgb(glm::mix(factor, 1.0f, metal));
+    return b;
+}
+
+// MTL. Only illum 5 has Fresnel's increase toward grazing angles; the others reflect Ks alike.
+Bsdf from_phong(const Gloss& gloss, Rgb color, bool front) {
+    const int model = gloss.illumination_model;
+    const bool traced = model >= 3 && model <= 7;
+    const bool sharp = traced && (gloss.shininess == 0 || gloss.shininess >= kSharpShininess);
+    Bsdf b;
+    b.alpha = sharp ? 0.0f : alpha_or_smooth(phong_alpha(gloss.shininess));
+
+    // Tf filters what passes through the object: half of it at each face of a solid.
+    const Rgb filter = glm::clamp(gloss.transmission_color, 0.0f, 1.0f);
+    set_glass(gloss, gloss.transmission, gloss.thin ? filter : glm::sqrt(filter), front, b);
+    if (b.glass == 1) return b;
+
+    b.diffuse = color;
+    const bool shines = model >= 2 && max_component(gloss.specular) > 0;
+    if (!shines) return b;
+    b.f0 = glm::clamp(gloss.specular, 0.0f, 1.0f);
+    b.f90 = model == 5 ? Rgb(1) : b.f0;
+    return b;
+}
+
+}  // namespace
+
+Bsdf bsdf_at(const Scene& scene, const SurfacePoint& point, bool front) {
+    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
+    const Gloss& gloss = scene.material(mesh.primitives[point.primitive].material).gloss;
+    const Rgb color(base_color(scene, point));
+    switch (gloss.model) {
+        case GlossModel::none:
+            break;
+        case GlossModel::metallic_roughness:
+            return from_metallic_roughness(gloss, color, metallic_roughness(scene, point), front);
+        case GlossModel::phong:
+            return from_phong(gloss, color, front);
+    }
+    Bsdf b;
+    b.diffuse = color;
+    return b;
+}
+
+}  // namespace chiaro
