@@ -27,9 +27,9 @@ void UpdateCycle::refine() {
             front_[channel].set(index_of(patch), front_gain(patch, channel));
         }
     }
-    // Neighbours of what was shaded learn of it here. Waiting for a tenth of the vertices keeps
+    // Neighbours of what was shaded learn of it here. Waiting for a fifth of the vertices keeps
     // this pass over everything a small part of the whole.
-    if (points_since_refresh_ * 10 > cache_.vertices().size()) refresh();
+    if (points_since_refresh_ * 5 > cache_.vertices().size()) refresh();
 }
 
 double UpdateCycle::seconds_budget() const {
