@@ -101,9 +101,7 @@ int thread_count(const Options& options) {
 }
 
 std::uint32_t short_seed(std::uint64_t seed) {
-    const auto low = static_cast<std::uint32_t>(seed);
-    const auto high = static_cast<std::uint32_t>(seed >> 32);
-    return high == 0 ? low : hash32(low, high);
+    return seed >> 32 == 0 ? static_cast<std::uint32_t>(seed) : hash64(seed);
 }
 
 CLI::Validator whole_number() {

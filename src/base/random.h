@@ -18,6 +18,10 @@ inline std::uint32_t hash32(std::uint32_t a, std::uint32_t b) {
     return hash32(a ^ (hash32(b) + 0x9e3779b9U + (a << 6) + (a >> 2)));
 }
 
+inline std::uint32_t hash64(std::uint64_t x) {
+    return hash32(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(x >> 32));
+}
+
 /// The 24 high bits of `bits` as a float in [0, 1).
 inline float to_unit_float(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) * 0x1p-24f;

@@ -22,16 +22,9 @@ Vec2 place_in_pixel(int i, int side) {
     return {(a + (b + 0.5f) / n) / n, (b + (a + 0.5f) / n) / n};
 }
 
-// What a ray meets on its way.
-struct Seen {
-    MaterialId id;
-    const Material& material;
-    Vec3 position;
-};
-
 constexpr float kLeastPart = 1.0f / 512;  // of a ray: what is behind it is not missed
 
-// Follows rays until they are stopped, and tells `see(looking, hit, seen, part)` of each surface
+// Follows rays until they are stopped, and tells `see(looking, hit, part)` of each surface
 // that shows, ray by ray and front to back; `part` is what of the pixel it takes.
 template <typename See>
 void look(const RayCaster& rays, std::span<const Looking> looking, const See& see) {
@@ -46,12 +39,8 @@ void look(const RayCaster& rays, std::span<const Looking> looking, const See& se
         const auto& [ray, hit] = layers[i];
         if (i == 0 || layers[i - 1].ray != ray) left = 1;
         if (left < kLeastPart) continue;
-        const Mesh& mesh = scene.mesh_of(scene.objects[index_of(hit.point.object)]);
-        const MaterialId id = mesh.primitives[hit.point.primitive].material;
-        const Looking& from = looking[ray];
-        const Seen at = {id, scene.material(id), from.ray.origin + hit.t * from.ray.direction};
         const float part = left * opacity(scene, hit.point);
-        see(from, hit, at, from.part * part);
+        see(looking[ray], hit, looking[ray].part * part);
         left -= part;
     }
 }
@@ -82,6 +71,27 @@ void add_piece(std::vector<SeenPiece>& pieces, std::vector<float>& weights, std:
     weights.push_back(part);
 }
 
+Rgb seen_emission(const Scene& scene, const Hit& hit, Aov aov, float part) {
+    if (aov == Aov::irradiance) return Rgb(0);
+    return part * emission(scene, hit.point, hit.front);
+}
+
+// What a ray met first, as outlines are found by it.
+CentreHit centre_hit(const Scene& scene, const Ray& ray, const Hit& hit) {
+    if (!hit) return {};
+    const MaterialId id = material_of(scene, hit.point);
+    const Material& m = scene.material(id);
+    return {hit.point.object,
+            id,
+            hit.normal,
+            ray.origin + hit.t * ray.direction,
+            hit.t,
+            hit.point,
+            m.base_color_texture.used(),
+            m.emissive(),
+            m.see_through() || m.emission_texture.used()};
+}
+
 }  // namespace
 
 SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
@@ -95,22 +105,11 @@ SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
         looking[x] = {view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f),
                       static_cast<std::uint32_t>(x), 1};
 
-    look(rays, looking, [&](const Looking& l, const Hit& hit, const Seen& at, float part) {
+    look(rays, looking, [&](const Looking& l, const Hit& hit, float part) {
         row.pieces.push_back({l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)});
-        const Material& m = at.material;
-        if (aov == Aov::radiance && m.emissive())
-            row.background[l.x] += part * emission(scene, hit.point, hit.front);
+        row.background[l.x] += seen_emission(scene, hit, aov, part);
         CentreHit& centre = centres[l.x];
-        if (centre.object != ObjectId::none) return;
-        centre = {hit.point.object,
-                  at.id,
-                  hit.normal,
-                  at.position,
-                  hit.t,
-                  hit.point,
-                  m.base_color_texture.used(),
-                  m.emissive(),
-                  m.see_through() || m.emission_texture.used()};
+        if (centre.object == ObjectId::none) centre = centre_hit(scene, l.ray, hit);
     });
     return row;
 }
@@ -135,17 +134,7 @@ std::vector<char> more_within(const RayCaster& rays, const View& view, int y,
     std::vector<char> more(centres.size(), 0);
     const Scene& scene = rays.scene();
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        CentreHit found;
-        if (hits[i]) {
-            const SurfacePoint& point = hits[i].point;
-            found.object = point.object;
-            found.material = scene.mesh_of(scene.objects[index_of(point.object)])
-                                 .primitives[point.primitive]
-                                 .material;
-            found.normal = hits[i].normal;
-            found.position = scouts[i].origin + hits[i].t * scouts[i].direction;
-            found.distance = hits[i].t;
-        }
+        const CentreHit found = centre_hit(scene, scouts[i], hits[i]);
         if (outline_between(centres[pixels[i]], found, footprint)) more[pixels[i]] = 1;
     }
     return more;
@@ -163,11 +152,10 @@ void see_pixel(const RayCaster& rays, const View& view, int x, int y, int side, 
     const std::size_t first = row.pieces.size();
     std::vector<float> weights;
     Rgb background(0);
-    look(rays, looking, [&](const Looking& l, const Hit& hit, const Seen& at, float part) {
+    look(rays, looking, [&](const Looking& l, const Hit& hit, float part) {
         add_piece(row.pieces, weights, first,
                   {l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)}, part);
-        if (aov == Aov::radiance && at.material.emissive())
-            background += part * emission(scene, hit.point, hit.front);
+        background += seen_emission(scene, hit, aov, part);
     });
     row.background[x] = background;
 }

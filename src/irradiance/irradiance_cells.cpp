@@ -37,9 +37,9 @@ float CellGrid::shortest() const {
     return kLengthOverSize * std::ldexp(size, 1 - kLevels);
 }
 
-CellGrid make_cell_grid(Vec3 low, Vec3 high) {
-    const float size = std::max(glm::length(high - low), 1e-30f) / kCellsAcross;
-    return {low - kMargin * size, size};
+CellGrid make_cell_grid(const Box& scene) {
+    const float size = std::max(scene.diagonal(), 1e-30f) / kCellsAcross;
+    return {scene.low - kMargin * size, size};
 }
 
 std::optional<CellKey> cell_at(const CellGrid& grid, Vec3 position, Vec3 normal, float distance,
@@ -69,10 +69,7 @@ void CellSamples::add(Rgb irradiance) {
 }
 
 std::size_t IrradianceCells::slot_of(CellKey key) const {
-    const auto bits = static_cast<std::uint64_t>(key);
-    std::size_t i =
-        hash32(static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32));
-    for (;; ++i) {
+    for (std::size_t i = hash64(static_cast<std::uint64_t>(key));; ++i) {
         i &= slots_.size() - 1;
         if (slots_[i] == CellId::none || cell(slots_[i]).key == key) return i;
     }
@@ -114,15 +111,6 @@ void IrradianceCells::store(CellId id, const CellSamples& added, std::uint32_t v
     c.deviations += added.deviations + apart * apart * before * more / (before + more);
     c.mean += (added.mean - c.mean) * (more / (before + more));
     c.samples += added.samples;
-}
-
-void IrradianceCells::clear() {
-    cells_.clear();
-    slots_.clear();
-}
-
-std::size_t IrradianceCells::bytes() const {
-    return cells_.capacity() * sizeof(IrradianceCell) + slots_.capacity() * sizeof(CellId);
 }
 
 }  // namespace chiaro

@@ -15,7 +15,7 @@ namespace chiaro {
 
 /// A cell's place, size and facing in 64 bits; equal keys mean the same cell.
 enum class CellKey : std::uint64_t {};
-/// Position in the array of cells; valid until clear().
+/// Position in the array of cells.
 enum class CellId : std::uint32_t { none = 0xffff'ffff };
 
 /// How space is divided. Cells halve in size as rays get shorter, so that a cell never looks
@@ -30,8 +30,8 @@ struct CellGrid {
     float shortest() const;
 };
 
-/// A grid of cells of 1/60 of the diagonal of `low` to `high` (scene bounds, world space).
-CellGrid make_cell_grid(Vec3 low, Vec3 high);
+/// A grid of cells of 1/60 of the diagonal of a scene's bounds (world space).
+CellGrid make_cell_grid(const Box& scene);
 
 /// The cell in which a ray of length `distance` ends that meets a surface at `position`, whose
 /// `normal` (unit, world) is on the side that the ray came from; nothing if the ray is too short.
@@ -83,9 +83,6 @@ public:
     /// Merges samples taken under `version` of the scene; older ones make way (design, section 5).
     /// Checks: samples > 0, finite.
     void store(CellId id, const CellSamples& samples, std::uint32_t version);
-
-    void clear();
-    std::size_t bytes() const;
 
 private:
     std::size_t slot_of(CellKey key) const;

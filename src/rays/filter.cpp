@@ -13,8 +13,7 @@ constexpr float kSeamWidth = 1e-4f;  // in (u, v)
 constexpr float kSamePlace = 1e-5f;  // of the distance along the ray
 
 bool double_sided(const Scene& scene, const SurfacePoint& point) {
-    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
-    return scene.material(mesh.primitives[point.primitive].material).double_sided;
+    return scene.material(material_of(scene, point)).double_sided;
 }
 
 // The whole ray decides, in world space: the same ray meets the same layers on every run, wherever

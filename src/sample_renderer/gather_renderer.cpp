@@ -7,6 +7,7 @@
 #include "sample_renderer/shade_tasks.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace chiaro {
 namespace {
@@ -33,20 +34,22 @@ struct Asking {
     CellKey key;
     std::uint32_t rays;  // that it stands for
     Receiver place;
+    CellId cell = CellId::none;  // once it is known
 };
 
 // What of one request's estimate hangs on each cell: errors of a cell are common to all rays that
 // end in it.
 class CellShares {
 public:
-    void clear() {
-        ids_.assign(kSlots, CellId::none);
-        shares_.assign(kSlots, 0.0f);
+    /// Room for as many cells as `rays` may end in.
+    void reset(std::uint32_t rays) {
+        const std::size_t slots = std::bit_ceil(2 * std::size_t{rays});
+        ids_.assign(slots, CellId::none);
+        shares_.assign(slots, 0.0f);
     }
     void add(CellId id, float share) {
-        // Full only with more cells than rays in a wave.
         for (std::size_t i = index_of(id) * 0x9e3779b1u >> 7;; ++i) {
-            i %= kSlots;
+            i &= ids_.size() - 1;
             if (ids_[i] != id && ids_[i] != CellId::none) continue;
             ids_[i] = id;
             shares_[i] += share;
@@ -56,15 +59,14 @@ public:
     // Variance of the sum of shares times the cells' luminance.
     float variance(const IrradianceCells& cells) const {
         float sum = 0;
-        for (std::size_t i = 0; i < kSlots; ++i)
+        for (std::size_t i = 0; i < ids_.size(); ++i)
             if (ids_[i] != CellId::none)
                 sum += shares_[i] * shares_[i] * cells.cell(ids_[i]).variance();
         return sum;
     }
 
 private:
-    static constexpr std::size_t kSlots = 4096;
-    std::vector<CellId> ids_;
+    std::vector<CellId> ids_;  // open addressing, at most half full
     std::vector<float> shares_;
 };
 
@@ -77,7 +79,7 @@ struct Scratch {
 TaskResult gather(const LitScene& lit, const OpenSides* open_sides, const IrradianceCells& cells,
                   const Receiver& receiver, const Task& task, const ShadeRequest& request,
                   Scratch& scratch, std::vector<Asking>& asking) {
-    scratch.shares.clear();
+    scratch.shares.reset(task.count);
     TaskResult result;
     std::array<Rgb, kReplicates> ended = {};
     const EndsAt ends_at = [&](const Path& path, std::uint32_t bounce, const Hit& hit,
@@ -120,22 +122,18 @@ std::uint32_t units_wanted(std::uint32_t hits) {
 // Sorts what was asked for by cell and tells which cells have earned more samples. Doubling them at
 // least keeps their number in step with the rays at few visits.
 std::vector<Filling> plan(IrradianceCells& cells, std::vector<Asking>& asking) {
-    std::vector<std::pair<CellId, std::uint32_t>> order(asking.size());
-    for (std::uint32_t i = 0; i < asking.size(); ++i) {
-        order[i] = {cells.find_or_add(asking[i].key), i};
-        cells.count_hits(order[i].first, asking[i].rays);
+    for (Asking& a : asking) {
+        a.cell = cells.find_or_add(a.key);
+        cells.count_hits(a.cell, a.rays);
     }
-    std::sort(order.begin(), order.end());
-    std::vector<Asking> sorted;
-    sorted.reserve(asking.size());
-    for (const auto& [cell, i] : order) sorted.push_back(asking[i]);
-    asking = std::move(sorted);
+    std::stable_sort(asking.begin(), asking.end(),
+                     [](const Asking& a, const Asking& b) { return a.cell < b.cell; });
 
     std::vector<Filling> fillings;
-    for (std::size_t first = 0; first < order.size();) {
-        const CellId id = order[first].first;
+    for (std::size_t first = 0; first < asking.size();) {
+        const CellId id = asking[first].cell;
         std::size_t last = first;
-        while (last < order.size() && order[last].first == id) ++last;
+        while (last < asking.size() && asking[last].cell == id) ++last;
         const IrradianceCell& cell = cells.cell(id);
         const std::uint32_t wanted = units_wanted(cell.hits);
         if (wanted >= std::max(2 * cell.samples, kFirstUnits))
@@ -162,9 +160,7 @@ Rgb sample_irradiance(const LitScene& lit, const Receiver& place, std::uint32_t 
 
 CellSamples fill(const LitScene& lit, const IrradianceCell& cell, const Filling& filling,
                  std::span<const Asking> asking, PathWave& scratch) {
-    const auto bits = static_cast<std::uint64_t>(cell.key);
-    const std::uint32_t seed =
-        hash32(static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32));
+    const std::uint32_t seed = hash64(static_cast<std::uint64_t>(cell.key));
     const std::size_t places = filling.last - filling.first;
     CellSamples samples;
     for (std::uint32_t u = 0; u < filling.units; ++u) {
@@ -184,7 +180,7 @@ GatherRenderer::GatherRenderer(const Scene& scene, const RayCaster& caster,
     : lit_(make_lit_scene(scene, caster, area_lights)),
       open_sides_(open_sides),
       threads_(threads),
-      cells_(make_cell_grid(bounds(scene).low, bounds(scene).high)) {}
+      cells_(make_cell_grid(bounds(scene))) {}
 
 SampleCosts GatherRenderer::typical_costs() const {
     return {.direct = 0.12e-6f, .indirect = 0.6e-6f};

@@ -16,8 +16,7 @@ LightBounds bounds_of(const PunctualLight& light) {
         bounds.cone = light.outer_cone;
         bounds.reach = 0;
     }
-    // Luminance alone would leave out a blue so deep that Y rounds to nothing.
-    bounds.intensity = luminance(light.intensity) + 1e-6f * max_component(light.intensity);
+    bounds.intensity = choice_weight(light.intensity);
     return bounds;
 }
 

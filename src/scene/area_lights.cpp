@@ -10,18 +10,13 @@ namespace {
 
 constexpr std::uint32_t kDark = 0xffff'ffff;
 
-// Luminance alone would leave out a blue so deep that Y rounds to nothing.
-float weight_of(Rgb color) {
-    return luminance(color) + 1e-6f * max_component(color);
-}
-
 // Luminance of each material's lit sides, zero where it is dark: a texture's mean is taken once. It
 // is good enough to choose by, and never zero where the texture has any light at all.
 std::vector<float> luminances(const Scene& scene) {
     std::vector<float> result(scene.materials.size(), 0.0f);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        if (material.emissive()) result[i] = weight_of(mean_emission(scene, material));
+        if (material.emissive()) result[i] = choice_weight(mean_emission(scene, material));
     }
     return result;
 }

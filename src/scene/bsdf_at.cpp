@@ -83,8 +83,7 @@ Bsdf from_phong(const Gloss& gloss, Rgb color, bool front) {
 }  // namespace
 
 Bsdf bsdf_at(const Scene& scene, const SurfacePoint& point, bool front) {
-    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
-    const Gloss& gloss = scene.material(mesh.primitives[point.primitive].material).gloss;
+    const Gloss& gloss = scene.material(material_of(scene, point)).gloss;
     const Rgb color(base_color(scene, point));
     switch (gloss.model) {
         case GlossModel::none:

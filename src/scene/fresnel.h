@@ -33,14 +33,14 @@ inline float schlick_weight(float cosine) {
 }
 
 /// What becomes of light at a clear boundary or pane, as parts of it.
-struct Split {
+struct LightSplit {
     Rgb reflected;
     Rgb transmitted;  // in power: the compression of a solid angle by refraction is not in it
 };
 
 /// A pane whose two faces each reflect `r` and whose body lets `tint` through, in [0, 1]: the sum
 /// over all reflections between the faces. Of a clear one 2 r / (1 + r) is reflected.
-inline Split split_at_pane(float r, Rgb tint) {
+inline LightSplit split_at_pane(float r, Rgb tint) {
     const Rgb across = (1 - r) * tint / (1.0f - r * r * tint * tint + 1e-20f);
     return {r + (1 - r) * r * tint * across, (1 - r) * across};
 }

@@ -7,14 +7,14 @@
 namespace chiaro {
 namespace {
 
-Split split_at_facet(const Bsdf& b, float cosine) {
+LightSplit split_at_facet(const Bsdf& b, float cosine) {
     const float reflectance = fresnel_dielectric(cosine, b.eta);
     if (b.thin) return split_at_pane(reflectance, b.tint);
     return {Rgb(reflectance), (1 - reflectance) * b.tint};
 }
 
 // Of the walk's going on by reflection at a facet.
-float chance_of_reflection(const Split& split) {
+float chance_of_reflection(const LightSplit& split) {
     const float reflected = max_component(split.reflected);
     return reflected / (reflected + max_component(split.transmitted));
 }
@@ -66,7 +66,7 @@ Rgb eval_glass(const Bsdf& b, Vec3 to_eye, Vec3 to_light) {
     if (reflects || b.thin) {
         const Vec3 light = reflects ? to_light : across(to_light);
         const Vec3 h = glm::normalize(to_eye + light);
-        const Split split = split_at_facet(b, glm::dot(to_eye, h));
+        const LightSplit split = split_at_facet(b, glm::dot(to_eye, h));
         return broad + ggx_density(h, b.alpha) * ggx_visibility(to_eye.z, cosine, b.alpha) *
                            (reflects ? split.reflected : split.transmitted);
     }
@@ -117,7 +117,7 @@ std::optional<GlassDirection> sample_glass(const Bsdf& b, Vec3 from, float u_lob
         u_lobe = std::min((u_lobe - missing.at) / (1 - missing.at), 0x1.fffffep-1f);
         facet = sample_visible_normal(from, b.alpha, u);
     }
-    const Split split = split_at_facet(b, glm::dot(from, facet));
+    const LightSplit split = split_at_facet(b, glm::dot(from, facet));
     const float chance = chance_of_reflection(split);
     const Vec3 mirrored = reflected(from, facet);
     if (u_lobe < chance) {
@@ -132,7 +132,7 @@ std::optional<GlassDirection> sample_glass(const Bsdf& b, Vec3 from, float u_lob
 }
 
 Rgb glass_total_albedo(const Bsdf& b, float cosine) {
-    const Split split = split_at_facet(b, cosine);
+    const LightSplit split = split_at_facet(b, cosine);
     return split.reflected + split.transmitted;
 }
 

@@ -5,7 +5,7 @@
 // chose nodes of eight children, whose importances are computed at once.
 #pragma once
 
-#include "base/vec.h"
+#include "base/color.h"
 
 #include <array>
 #include <cstdint>
@@ -31,6 +31,12 @@ struct LightBounds {
     bool two_sided = false;  // something in it emits backward too
     float intensity = 0;     // along the normal: luminance x area [cd, in metres]; > 0
 };
+
+/// What a light of that colour counts for in a choice. Luminance alone would leave out a blue so
+/// deep that Y rounds to nothing.
+inline float choice_weight(Rgb color) {
+    return luminance(color) + 1e-6f * max_component(color);
+}
 
 /// The bounds of both together. A light of no intensity adds nothing.
 LightBounds merge(const LightBounds& a, const LightBounds& b);

@@ -111,6 +111,11 @@ SurfaceGeometry surface_geometry(const Scene& scene, const SurfacePoint& point) 
     return geometry;
 }
 
+MaterialId material_of(const Scene& scene, const SurfacePoint& point) {
+    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
+    return mesh.primitives[point.primitive].material;
+}
+
 Vec4 base_color(const Scene& scene, const SurfacePoint& point) {
     const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
     const Primitive& primitive = mesh.primitives[point.primitive];
@@ -126,8 +131,7 @@ Vec4 base_color(const Scene& scene, const SurfacePoint& point) {
 }
 
 float opacity(const Scene& scene, const SurfacePoint& point) {
-    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
-    const Material& material = scene.material(mesh.primitives[point.primitive].material);
+    const Material& material = scene.material(material_of(scene, point));
     if (!material.see_through()) return 1;
     const float alpha = base_color(scene, point).a;
     if (material.alpha_mode == AlphaMode::blend) return alpha;

@@ -59,6 +59,9 @@ Vec3 shading_normal(const Scene& scene, const SurfacePoint& point, Vec3 geometri
 /// front side also where the transform mirrors; normals keep their direction but not their length.
 Mat3 normal_matrix(const Mat4& to_world);
 
+/// The material of the primitive that the point lies on.
+MaterialId material_of(const Scene& scene, const SurfacePoint& point);
+
 /// Diffuse reflectance at the point in [0, 1] a channel (base colour x texture x vertex colour) and
 /// its alpha in [0, 1].
 Vec4 base_color(const Scene& scene, const SurfacePoint& point);

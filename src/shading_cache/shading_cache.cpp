@@ -157,8 +157,7 @@ VertexId ShadingCache::add_vertex(PatchId id, Vec2 local, std::span<const Vertex
         append(slots_[c], kNoSlot);
         append(shown_[c], std::uint32_t{0});
     }
-    resolve_hollow(made);
-    for (int c = 0; c < channels() && !parents.empty(); ++c) resolve_vertex(made, c);
+    resolve_vertex(made);
     return made;
 }
 

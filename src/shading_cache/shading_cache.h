@@ -115,6 +115,7 @@ private:
     void resolve_hollow(VertexId vertex);
     float first_surplus(VertexId vertex, int channel, Rgb mean, float variance) const;
     void resolve_vertex(VertexId vertex, int channel);
+    void resolve_vertex(VertexId vertex);
     void show(VertexId vertex, int channel, Rgb irradiance);
     SurfacePoint place(std::uint32_t surface_side, Vec2 uv) const;
     void pack_channels(const std::vector<char>& vertex_kept);

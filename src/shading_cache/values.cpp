@@ -66,15 +66,13 @@ float ShadingCache::surplus(VertexId id, const Estimate& estimate) const {
 void ShadingCache::mark_buried(VertexId id) {
     if (vertex(id).exposed) return;
     vertices_[index_of(id)].buried = 1;
-    resolve_hollow(id);
-    for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
+    resolve_vertex(id);
 }
 
 void ShadingCache::unmark_buried(VertexId id) {
     if (!vertex(id).buried) return;
     vertices_[index_of(id)].buried = 0;
-    resolve_hollow(id);
-    for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
+    resolve_vertex(id);
 }
 
 bool ShadingCache::dark(VertexId id) const {
@@ -152,13 +150,14 @@ void ShadingCache::resolve_hollow(VertexId id) {
     v.hollow = knows ? 0 : 1;
 }
 
+void ShadingCache::resolve_vertex(VertexId id) {
+    resolve_hollow(id);
+    for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
+}
+
 void ShadingCache::resolve() {
     // Parents come earlier in the array than their children, so one pass is enough.
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-        const auto id = static_cast<VertexId>(i);
-        resolve_hollow(id);
-        for (int c = 0; c < channels(); ++c) resolve_vertex(id, c);
-    }
+    for (std::size_t i = 0; i < vertices_.size(); ++i) resolve_vertex(static_cast<VertexId>(i));
 }
 
 }  // namespace chiaro

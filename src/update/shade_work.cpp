@@ -11,9 +11,7 @@ namespace {
 
 // A vertex is its place: made again there, it draws the same numbers.
 std::uint32_t vertex_seed(const CacheVertex& vertex, int channel, std::uint64_t session_seed) {
-    std::uint32_t h = hash32(static_cast<std::uint32_t>(session_seed),
-                             static_cast<std::uint32_t>(session_seed >> 32));
-    h = hash32(h, vertex.surface_side);
+    std::uint32_t h = hash32(hash64(session_seed), vertex.surface_side);
     h = hash32(h, std::bit_cast<std::uint32_t>(vertex.uv.x));
     h = hash32(h, std::bit_cast<std::uint32_t>(vertex.uv.y));
     return hash32(h, static_cast<std::uint32_t>(channel));

@@ -18,7 +18,7 @@ const Vec3 kUp(0, 0, 1);
 // A scene whose diagonal is 60: the largest cells are 1 across.
 CellGrid unit_grid() {
     const float side = 60 / std::sqrt(3.0f);
-    return make_cell_grid(Vec3(0), Vec3(side));
+    return make_cell_grid({Vec3(0), Vec3(side)});
 }
 
 // Cells are 1/60 of the diagonal and halve with the ray's length: never more than half of it.
