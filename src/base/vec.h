@@ -54,6 +54,7 @@ struct Frame {
         t = Vec3(b, sign + n.y * n.y * a, -n.y);
     }
     Vec3 to_world(Vec3 v) const { return v.x * s + v.y * t + v.z * n; }
+    Vec3 to_local(Vec3 v) const { return {glm::dot(s, v), glm::dot(t, v), glm::dot(n, v)}; }
 };
 
 inline bool is_finite(Vec3 v) {

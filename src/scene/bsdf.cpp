@@ -168,4 +168,12 @@ std::optional<BsdfSample> sample_bsdf(const Bsdf& b, Vec3 from, float u_lobe, Ve
     return sample;
 }
 
+SmoothSplit split_smooth(const Bsdf& b, Vec3 from) {
+    SmoothSplit split;
+    if (!b.smooth()) return split;
+    if (has_facets(b)) split.reflected = (1 - b.glass) * facet_reflectance(b, from.z);
+    if (b.glass > 0) add_smooth_glass(b, from, split);
+    return split;
+}
+
 }  // namespace chiaro

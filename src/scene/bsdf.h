@@ -104,4 +104,13 @@ std::optional<BsdfSample> sample_bsdf(const Bsdf& bsdf, Vec3 from, float u_lobe,
 /// to less than 1. The same for both transports.
 float pdf_bsdf(const Bsdf& bsdf, Vec3 from, Vec3 to);
 
+/// What sample_bsdf() does at a smooth surface, by every branch and without chance: weights of the
+/// mirrored direction and of the one through the surface, for radiance. Black where it is rough.
+struct SmoothSplit {
+    Rgb reflected = Rgb(0);
+    Rgb transmitted = Rgb(0);
+    Vec3 transmitted_from = Vec3(0, 0, -1);
+};
+SmoothSplit split_smooth(const Bsdf& bsdf, Vec3 from);
+
 }  // namespace chiaro

@@ -131,6 +131,18 @@ std::optional<GlassDirection> sample_glass(const Bsdf& b, Vec3 from, float u_lob
                           split.transmitted / ((1 - chance) * (compressed ? b.eta * b.eta : 1.0f))};
 }
 
+void add_smooth_glass(const Bsdf& b, Vec3 from, SmoothSplit& split) {
+    const LightSplit parts = split_at_facet(b, from.z);
+    split.reflected += b.glass * parts.reflected;
+    split.transmitted = b.glass * parts.transmitted;
+    if (b.thin) {
+        split.transmitted_from = -from;
+    } else if (max_component(parts.transmitted) > 0) {
+        split.transmitted_from = refracted(from, Vec3(0, 0, 1), b.eta);
+        split.transmitted /= b.eta * b.eta;
+    }
+}
+
 Rgb glass_total_albedo(const Bsdf& b, float cosine) {
     const LightSplit split = split_at_facet(b, cosine);
     return split.reflected + split.transmitted;

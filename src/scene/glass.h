@@ -18,6 +18,9 @@ struct GlassDirection {
 std::optional<GlassDirection> sample_glass(const Bsdf& bsdf, Vec3 from, float u_lobe, Vec2 u,
                                            Transport transport);
 
+/// Adds the share of the glass, which is smooth, to what split_smooth() gives.
+void add_smooth_glass(const Bsdf& bsdf, Vec3 from, SmoothSplit& split);
+
 /// As total_albedo(), of glass alone.
 Rgb glass_total_albedo(const Bsdf& bsdf, float cosine);
 

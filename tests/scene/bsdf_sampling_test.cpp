@@ -1,75 +1,28 @@
 // The sampler of surfaces against its density, and both against odd input.
 #include "base/random.h"
 #include "scene/bsdf_testing.h"
+#include "scene/chi_squared.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <limits>
 
 namespace chiaro {
 namespace {
 
-constexpr int kRings = 16;  // cells are equal in angle: 16 x 32 over the sphere
-constexpr int kCells = 2 * kRings * kRings;
-
-int cell_of(Vec3 w) {
-    const double ring = std::acos(double(glm::clamp(w.z, -1.0f, 1.0f))) / kPi * kRings;
-    const double step = (std::atan2(double(w.y), double(w.x)) / kPi + 1) * kRings;
-    return std::min(int(ring), kRings - 1) * 2 * kRings + std::min(int(step), 2 * kRings - 1);
-}
-
-// The integral of the density over a cell by 32 x 32 midpoints.
-double chance_of_cell(const Bsdf& b, Vec3 from, int cell) {
-    constexpr int kSteps = 32;
-    const double size = double(kPi) / kRings, step = size / kSteps;
-    double sum = 0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double polar = (cell / (2 * kRings)) * size + (i + 0.5) * step;
-        for (int k = 0; k < kSteps; ++k) {
-            const double azimuth = (cell % (2 * kRings)) * size + (k + 0.5) * step - kPi;
-            sum += pdf_bsdf(b, from, direction(float(std::cos(polar)), float(azimuth))) *
-                   std::sin(polar) * step * step;
-        }
-    }
-    return sum;
-}
-
-// Chi^2 of the directions against the density, the walks that end as one more cell; cells of fewer
-// than 10 expected together. The bound is 6 standard deviations, false alarm below 1e-6 each.
+// The walks that end are one more cell.
 void expect_density_as_stated(const Bsdf& b, float cosine, const std::string& name) {
-    constexpr int kSamples = 60'000;
     const Vec3 from = direction(cosine, 0.7f);
-    std::array<double, kCells + 1> counts = {}, expected = {};
     Rng rng(23);
-    for (int i = 0; i < kSamples; ++i) {
+    const auto draw = [&]() -> std::optional<Vec3> {
         const float u_lobe = rng.uniform(), u = rng.uniform();
         const auto s = sample_bsdf(b, from, u_lobe, {u, rng.uniform()});
-        counts[s ? cell_of(s->direction) : kCells] += 1;
-    }
-    double total = 0;
-    for (int i = 0; i < kCells; ++i) total += expected[i] = chance_of_cell(b, from, i);
-    EXPECT_LE(total, 1.001) << name;
-    expected[kCells] = std::max(0.0, 1 - total);
-
-    double chi2 = 0, few_counts = 0, few_expected = 0;
-    int cells = 0;
-    const auto add = [&](double count, double mean) {
-        chi2 += (count - mean) * (count - mean) / std::max(mean, 1.0);
-        ++cells;
+        if (!s) return std::nullopt;
+        return s->direction;
     };
-    for (int i = 0; i <= kCells; ++i) {
-        const double mean = expected[i] * kSamples;
-        if (mean >= 10) {
-            add(counts[i], mean);
-        } else {
-            few_counts += counts[i];
-            few_expected += mean;
-        }
-    }
-    add(few_counts, few_expected);
-    EXPECT_LT(chi2, cells + 6 * std::sqrt(2.0 * cells))
-        << name << ", alpha " << b.alpha << ", cosine " << cosine << ", cells " << cells;
+    expect_density(
+        [&](Vec3 to) { return pdf_bsdf(b, from, to); }, draw,
+        name + ", alpha " + std::to_string(b.alpha) + ", cosine " + std::to_string(cosine));
 }
 
 constexpr float kRoughnesses[] = {0.25f, 0.5f, 1};
