@@ -263,11 +263,13 @@ void MtlMaterials::load_maps(const Definition& definition) {
 }
 
 // Glass (illum 4, 6, 7). Exporters write illum 4 for surfaces of all kinds; an index of 1 betrays
-// those.
+// those. What passes glass is its Fresnel's and Tf's business, not that of `d`.
 void set_transmission(Material& material) {
     const int model = material.gloss.illumination_model;
     if ((model != 4 && model != 6 && model != 7) || !(material.gloss.ior > 1)) return;
     material.gloss.transmission = 1;
+    material.alpha = 1;
+    material.alpha_mode = AlphaMode::opaque;
 }
 
 MaterialId MtlMaterials::find(const std::string& name) {

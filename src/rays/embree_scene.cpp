@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "rays/filter.h"
+#include "scene/bsdf.h"
 #include "scene/surface.h"
 
 #include <algorithm>
@@ -15,7 +16,8 @@ namespace {
 
 bool any_see_through(const Mesh& mesh, const Scene& scene) {
     return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& p) {
-        return scene.material(p.material).see_through();
+        const Material& material = scene.material(p.material);
+        return material.see_through() || may_pass_straight(material);
     });
 }
 

@@ -1,6 +1,7 @@
 #include "rays/filter.h"
 
 #include "base/random.h"
+#include "scene/bsdf.h"
 
 #include <algorithm>
 #include <bit>
@@ -76,6 +77,18 @@ void add_layer(LayersMet& layers, const RawHit& hit) {
     if (hit.t < farthest.t) farthest = hit;
 }
 
+// What a smooth pane lets through; black of all else.
+Rgb straight_on(const PacketContext& context, const RawHit& hit, const SurfacePoint& point,
+                Vec3 direction) {
+    const Scene& scene = *context.scene;
+    if (!may_pass_straight(scene.material(material_of(scene, point)))) return Rgb(0);
+    const EmbreeScene& embree = *context.embree_scene;
+    Vec3 normal = embree.normal_of(hit);
+    if (!embree.flat(point)) normal = shading_normal(scene, point, normal);
+    const float cosine = glm::dot(normal, direction) / glm::length(direction);
+    return straight_transmittance(bsdf_at(scene, point, true), cosine);
+}
+
 // True if the ray in `lane` goes on.
 bool passes(const PacketContext& context, const RawHit& hit, std::uint32_t lane) {
     const Ray& ray = context.rays[lane];
@@ -85,20 +98,19 @@ bool passes(const PacketContext& context, const RawHit& hit, std::uint32_t lane)
         return true;
 
     const float alpha = opacity(*context.scene, point);
-    if (alpha <= 0 || alpha >= 1) return alpha <= 0;
-    switch (context.kind) {
-        case FilterKind::chance:
-            return ray_number(ray, hit.object, point.primitive) >= alpha;
-        case FilterKind::through:
-            if (!on_seam(hit) || !met_before(context.seams[lane], hit))
-                context.through[lane] *= 1 - alpha;
-            return true;
-        case FilterKind::layers:
-            if (!on_seam(hit) || !met_before(context.layers[lane], hit))
-                add_layer(context.layers[lane], hit);
-            return true;
+    if (alpha <= 0) return true;
+    if (context.kind == FilterKind::through) {
+        const Rgb left = (1 - alpha) + alpha * straight_on(context, hit, point, ray.direction);
+        if (!(max_component(left) > 0)) return false;
+        if (!on_seam(hit) || !met_before(context.seams[lane], hit)) context.through[lane] *= left;
+        return true;
     }
-    return false;
+    if (alpha >= 1) return false;
+    if (context.kind == FilterKind::chance)
+        return ray_number(ray, hit.object, point.primitive) >= alpha;
+    if (!on_seam(hit) || !met_before(context.layers[lane], hit))
+        add_layer(context.layers[lane], hit);
+    return true;
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ struct SeamsMet {
     std::array<float, kMost> t;
 };
 
-/// What a cast wants to know of blended surfaces.
+/// What a cast wants to know of blended surfaces; smooth panes stop all rays but those of
+/// `through`.
 enum class FilterKind {
     chance,   // each stops a ray with the probability of its alpha
     through,  // none stops a ray; `through` takes what they leave

@@ -57,7 +57,8 @@ public:
 
     /// What part of light gets along each ray between its t_min and t_max, a colour channel: 0 if
     /// something stops it, else the product of what the blended surfaces in between leave (1 -
-    /// alpha), each counted once. No chance in it. Both spans are of one length.
+    /// alpha) and smooth panes let straight on, each counted once. No chance in it. Both spans are
+    /// of one length.
     void transmittance(std::span<const Ray> rays, std::span<Rgb> through) const;
 
     /// Everything that camera rays show: the blended surfaces on the way of each, front to back,

@@ -1,6 +1,6 @@
 #include "sample_renderer/direct_light.h"
 
-#include "sample_renderer/warp.h"
+#include "sample_renderer/path_bounce.h"
 
 namespace chiaro {
 namespace {
@@ -25,7 +25,7 @@ void add_area_light_sample(const LitScene& lit, const Receiver& receiver, const 
                                                sequence.pair(sample, kLightPlace));
     if (!connection) return;
     const float of_light = kLightSamplesPerRay * connection->pdf_solid_angle;
-    const float weight = of_light / (of_light + connection->pdf_cosine);
+    const float weight = of_light / (of_light + connection->pdf_cosine());
     shadows.add(connection->shadow_ray, connection->irradiance * weight, sample % kReplicates);
 }
 
@@ -37,21 +37,33 @@ void add_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t r
     if (pdf > 0) wave.add({receiver.origin, direction}, {.pdf = pdf, .slot = replicate});
 }
 
-// Emission that the cosine-distributed rays met. Each stands for kLightSamplesPerRay samples.
+// Emission that the cosine-distributed rays meet, and behind panes. Each ray stands for
+// kLightSamplesPerRay samples.
 void settle_rays(const LitScene& lit, const Receiver& receiver, PathWave& wave,
                  std::span<Rgb, kReplicates> sums) {
-    wave.hits.resize(wave.rays.size());
-    lit.caster.intersect(wave.rays, wave.hits);
-    for (std::size_t i = 0; i < wave.rays.size(); ++i) {
-        if (!wave.hits[i]) continue;
-        const Rgb radiance = emission(lit.scene, wave.hits[i].point, wave.hits[i].front);
-        if (radiance == Rgb(0)) continue;
-        const Path& path = wave.paths[i];
-        const float of_light =
-            kLightSamplesPerRay *
-            pdf_area_light(lit, lit_place(receiver), wave.rays[i].direction, wave.hits[i]);
-        sums[path.slot] +=
-            radiance * (kPi * kLightSamplesPerRay * path.pdf / (of_light + path.pdf));
+    while (!wave.rays.empty()) {
+        wave.hits.resize(wave.rays.size());
+        lit.caster.intersect(wave.rays, wave.hits);
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < wave.rays.size(); ++i) {
+            Ray ray = wave.rays[i];
+            Path path = wave.paths[i];
+            const Hit& hit = wave.hits[i];
+            if (!hit) continue;
+            const Rgb radiance = path.throughput * emission(lit.scene, hit.point, hit.front);
+            if (max_component(radiance) > 0) {
+                const float of_light = kLightSamplesPerRay *
+                                       pdf_area_light(lit, lit_place(receiver), ray.direction, hit);
+                sums[path.slot] +=
+                    radiance * (kPi * kLightSamplesPerRay * path.pdf / (of_light + path.pdf));
+            }
+            path.throughput *= passed_straight(lit, hit, ray);
+            if (!(max_component(path.throughput) > 0)) continue;
+            wave.rays[left] = ray;
+            wave.paths[left++] = path;
+        }
+        wave.rays.resize(left);
+        wave.paths.resize(left);
     }
 }
 

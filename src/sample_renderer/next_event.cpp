@@ -59,7 +59,8 @@ std::optional<LightConnection> connect_area_light(const LitScene& lit, const Rec
     LightConnection connection;
     connection.shadow_ray = {receiver.origin, end - receiver.origin, 0, 1};
     connection.pdf_solid_angle = sample.pdf_area * squared / light_cosine;
-    connection.pdf_cosine = cosine * (1 / kPi);
+    connection.to_light = to_light;
+    connection.cosine = cosine;
     connection.irradiance = radiance * (cosine / connection.pdf_solid_angle);
     return connection;
 }
@@ -73,6 +74,8 @@ std::optional<LightConnection> connect_punctual(const LitScene& lit, const Recei
     if (cosine <= 0) return std::nullopt;
 
     LightConnection connection;
+    connection.to_light = found->to_light;
+    connection.cosine = cosine;
     connection.irradiance = found->irradiance * cosine;
     connection.shadow_ray =
         light.kind == LightKind::directional

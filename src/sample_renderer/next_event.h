@@ -31,6 +31,11 @@ struct Receiver {
 Receiver make_receiver(const RayCaster& caster, ObjectId object, Vec3 position,
                        Vec3 geometric_normal, Vec3 shading_normal);
 
+/// The same place, receiving on its other side.
+inline Receiver other_side(const Receiver& r) {
+    return {r.position, 2.0f * r.position - r.origin, -r.geometric_normal, -r.shading_normal};
+}
+
 /// What lights are chosen for: rays start at the lifted origin, and nothing below the real plane
 /// counts.
 inline LitPlace lit_place(const Receiver& receiver) {
@@ -62,10 +67,14 @@ float pdf_receiving_cosine(const Receiver& receiver, Vec3 w);
 /// A sample of the light at a receiver, before it is known whether it is blocked.
 struct LightConnection {
     Ray shadow_ray;
-    Rgb irradiance;  // the sample's estimate: over the density with which it was chosen
+    Vec3 to_light;     // unit
+    Rgb irradiance;    // the sample's estimate: over the density with which it was chosen
+    float cosine = 0;  // receiving_cosine() of the direction, which is in `irradiance`; > 0
     float pdf_solid_angle =
-        0;                 // of the direction, by area sampling; 0: no other technique finds it
-    float pdf_cosine = 0;  // of the direction, by sampling the cosine at the receiver
+        0;  // of the direction, by area sampling; 0: no other technique finds it
+
+    /// Of the direction, by sampling the cosine at the receiver.
+    float pdf_cosine() const { return cosine * (1 / kPi); }
 };
 
 /// A point of the area lights; nothing if it cannot shine on the receiver. `choice` and `spot` as

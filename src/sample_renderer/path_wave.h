@@ -12,12 +12,15 @@ namespace chiaro {
 /// One path under way; its ray and hit stand at the same place in the wave's arrays.
 struct Path {
     Rgb throughput = Rgb(1);
-    float pdf = 0;           // of the ray's direction over solid angle, for the weight of emission
+    float pdf = 0;           // of the ray's direction over solid angle, for the weight of emission;
+                             // 0: no light sample finds what it meets
     std::uint32_t slot = 0;  // which sum it adds to
     std::uint32_t key = 0;   // names its random numbers after the first hit's
     Vec2 light_place = {};   // at the first hit: where on a light,
     float light_choice = 0;  // and which of each kind of light
     Vec3 normal = Vec3(0);   // LitPlace's, where the ray started; after the first hit
+    float index2 = 1;        // squared index of the glass that it is in: radiance in there is dense
+    bool first = true;       // it is still on its first ray, though that may have passed panes
 };
 
 /// The path of `sample` of the sequence before its first ray.
@@ -57,18 +60,19 @@ struct PathWave {
 /// What a path takes of the light that the first surface it meets emits.
 enum class FirstEmission { skipped, counted };
 
-/// Asked at each surface that a path meets, before the path is lit there: true ends it, whoever is
-/// asked having added what it knows. `reflected` is the throughput after a reflection here; divided
-/// by pi, radiance over irradiance. The hit is at distance `hit.t`.
+/// Asked at each surface with diffuse light that a path meets, before the path is lit there: true
+/// ends it for that light, whoever is asked having added what it knows. `reflected` is the
+/// throughput after a diffuse reflection here; divided by pi, radiance over irradiance. The hit is
+/// at distance `hit.t`.
 using EndsAt = std::function<bool(const Path& path, std::uint32_t bounce, const Hit& hit,
                                   const Receiver& met, Rgb reflected)>;
 
 /// Follows all paths of the wave to their ends and adds the radiance that each finds along its
 /// first ray, times its throughput, to sums[slot]. The first hits must be in place: the caller
-/// casts the first rays, as they are of many kinds. Two-sided Lambertian reflection; each point
-/// asks one light of each kind; next event estimation and emission met by chance are weighted by
-/// the balance heuristic (Veach and Guibas 1995); Russian roulette with survival up to 0.98, no
-/// other bound on the number of bounces.
+/// casts the first rays, as they are of many kinds. Each point asks one light of each kind; next
+/// event estimation and emission met by chance are weighted by the balance heuristic (Veach and
+/// Guibas 1995); Russian roulette with survival up to 0.98, no other bound on the number of
+/// bounces. Smooth panes let rays on that light samples pass too: such a ray remains one ray.
 void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<Rgb> sums,
             const EndsAt* ends_at = nullptr);
 

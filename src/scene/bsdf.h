@@ -73,6 +73,9 @@ Rgb total_albedo(const Bsdf& bsdf, float cosine_to_eye);
 /// What a shadow ray keeps.
 Rgb straight_transmittance(const Bsdf& bsdf, float cosine);
 
+/// True if straight_transmittance() of the material is above 0 somewhere, or may be.
+bool may_pass_straight(const Material& material);
+
 /// Radiance toward the eye over irradiance by light from `to_light` [1 / steradian]: without the
 /// cosine, without what is smooth. The roles are the light's, whoever walks: not even a path from a
 /// lamp may exchange them, since neither the diffuse light is reciprocal nor refraction, which

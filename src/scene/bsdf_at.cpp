@@ -82,6 +82,11 @@ Bsdf from_phong(const Gloss& gloss, Rgb color, bool front) {
 
 }  // namespace
 
+bool may_pass_straight(const Material& material) {
+    const Gloss& gloss = material.gloss;
+    return gloss.model != GlossModel::none && gloss.thin && gloss.transmission > 0;
+}
+
 Bsdf bsdf_at(const Scene& scene, const SurfacePoint& point, bool front) {
     const Gloss& gloss = scene.material(material_of(scene, point)).gloss;
     const Rgb color(base_color(scene, point));

@@ -42,6 +42,7 @@ TEST(ReadMtl, GlassTransmits) {
     const TempFolder folder;
     for (const std::string model : {"4", "6", "7"}) {
         const Material m = material_of(folder, "d 0.1\nNi 1.5\nillum " + model + "\n");
+        EXPECT_FALSE(m.see_through()) << model;
         EXPECT_EQ(m.gloss.transmission, 1);
         EXPECT_TRUE(m.gloss.thin);  // a single square encloses nothing
     }

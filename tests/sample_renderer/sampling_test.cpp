@@ -119,7 +119,7 @@ TEST(Sampling, BothTechniquesStateTheSameDensity) {
         if (!hit || hit.point.object != ObjectId(0)) continue;
         EXPECT_NEAR(pdf_area_light(meter.lit, lit_place(receiver), d, hit) / c->pdf_solid_angle, 1,
                     2e-3);
-        EXPECT_NEAR(pdf_cosine_hemisphere(d.z) / c->pdf_cosine, 1, 2e-3);
+        EXPECT_NEAR(pdf_cosine_hemisphere(d.z) / c->pdf_cosine(), 1, 2e-3);
         ++compared;
     }
     EXPECT_GT(compared, 100);

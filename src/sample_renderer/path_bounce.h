@@ -1,0 +1,40 @@
+// One bounce of a path: what the surface that it met emits, what that reflects of the lights, and
+// where the path goes on.
+#pragma once
+
+#include "sample_renderer/path_wave.h"
+
+namespace chiaro {
+
+/// What a path needs to know of the surface that it met.
+struct MetSurface {
+    Receiver receiver;  // on the side that the ray came from
+    Rgb base_color;
+    const Material& material;
+};
+MetSurface describe(const LitScene& lit, const Hit& hit);
+
+/// Emission that a ray of a path met by chance, weighted: next event estimation where the ray
+/// started may have found it too.
+Rgb met_emission(const LitScene& lit, const Path& path, const Ray& ray, const Hit& hit);
+
+/// What a smooth pane lets straight on of the ray that met it, whose t_min is set beyond; black at
+/// all else.
+Rgb passed_straight(const LitScene& lit, const Hit& hit, Ray& ray);
+
+/// Where a path is.
+struct Bounce {
+    const LitScene& lit;
+    const MetSurface& surface;
+    const Hit& hit;
+    std::uint32_t number;
+    const EndsAt* ends_at;  // may be null
+    ShadowBatch& shadows;   // takes the light that the surface reflects
+};
+
+/// Light from one light of each kind, and the next ray; false if the path ends. For Lambertian
+/// surfaces, and for all others.
+bool reflect_diffusely(const Bounce& here, Path& path, Ray& ray);
+bool scatter(const Bounce& here, Path& path, Ray& ray);
+
+}  // namespace chiaro
