@@ -32,7 +32,7 @@ std::vector<std::pair<std::string, Bsdf>> surfaces() {
 TEST(Scattering, DirectionsFollowTheirDensity) {
     for (const auto& [name, b] : surfaces()) {
         if (is_delta_only(b)) continue;
-        for (const auto [cosine, azimuth] : {std::pair{0.05f, 0.3f}, {0.7f, 3.0f}}) {
+        for (const auto& [cosine, azimuth] : {std::pair{0.05f, 0.3f}, {0.7f, 3.0f}}) {
             const Scattering s = leaning(b, cosine, azimuth);
             Rng rng(5);
             const auto draw = [&]() -> std::optional<Vec3> {

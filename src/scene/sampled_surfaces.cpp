@@ -1,0 +1,157 @@
+#include "scene/sampled_surfaces.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chiaro {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffff'ffff;
+
+// Uniform barycentric weights of a triangle's second and third corner.
+Vec2 square_to_triangle(Vec2 place) {
+    const float root = std::sqrt(place.x);
+    return {root * (1 - place.y), root * place.y};
+}
+
+}  // namespace
+
+SampledSurfaces::SampledSurfaces(const Scene& scene, std::span<const SurfaceWeight> weights)
+    : surface_of_(scene.objects.size()) {
+    std::vector<LightBounds> bounds;
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+        if (scene.objects[o].mesh == MeshId::none) continue;
+        const auto more = add_object(scene, static_cast<ObjectId>(o), weights);
+        bounds.insert(bounds.end(), more.begin(), more.end());
+    }
+
+    // Sums in double, however many there are. Clusters get shares, which no unit can make too
+    // large.
+    for (const LightBounds& b : bounds)
+        total_weight_ += (b.two_sided ? 2 : 1) * double(b.intensity);
+    for (LightBounds& b : bounds)
+        b.intensity = static_cast<float>(b.intensity / (double(kPi) * total_weight_));
+    clusters_ = LightClusters(bounds);
+}
+
+std::vector<LightBounds> SampledSurfaces::add_object(const Scene& scene, ObjectId object,
+                                                     std::span<const SurfaceWeight> weights) {
+    std::vector<LightBounds> bounds;
+    const auto& primitives = scene.mesh_of(scene.objects[index_of(object)]).primitives;
+    for (std::uint32_t p = 0; p < primitives.size(); ++p) {
+        const auto [weight, two_sided] = weights[index_of(primitives[p].material)];
+        if (!(weight > 0)) continue;
+        const float area = primitive_area(scene, object, p);
+        if (!(area > 0)) continue;
+
+        std::vector<std::uint32_t>& surfaces = surface_of_[index_of(object)];
+        if (surfaces.empty()) surfaces.assign(primitives.size(), kNone);
+        surfaces[p] = static_cast<std::uint32_t>(surfaces_.size());
+        surfaces_.push_back(make_surface(scene, {object, p, 0, 0}, area));
+        bounds.push_back(bounds_of(surfaces_.back(), two_sided, weight * area));
+    }
+    return bounds;
+}
+
+SampledSurfaces::Surface SampledSurfaces::make_surface(const Scene& scene,
+                                                       const SurfacePoint& where, float area) {
+    const Object& object = scene.objects[index_of(where.object)];
+    const Mesh& mesh = scene.mesh_of(object);
+    const Primitive& primitive = mesh.primitives[where.primitive];
+    const auto normal_at = [&](float uv) {
+        return surface_geometry(scene, {where.object, where.primitive, uv, uv}).geometric_normal;
+    };
+
+    Surface surface;
+    surface.where = where;
+    surface.quad = primitive.is_quad();
+    for (int c = 0; c < primitive.corner_count(); ++c)
+        surface.corners[c] = Vec3(object.to_world * Vec4(mesh.positions[primitive.corners[c]], 1));
+    surface.inverse_area = 1 / area;
+    surface.normals[0] = normal_at(0.25f);
+    if (!surface.quad) return surface;
+
+    const auto& c = surface.corners;
+    surface.normals[1] = normal_at(0.75f);
+    const float first = 0.5f * glm::length(glm::cross(c[1] - c[0], c[3] - c[0]));
+    surface.first_half = std::min(1.0f, first / area);
+    const float skew = glm::length(c[0] - c[1] + c[2] - c[3]);
+    surface.parallelogram = skew <= 1e-5f * glm::length(c[2] - c[0]);
+    return surface;
+}
+
+LightBounds SampledSurfaces::bounds_of(const Surface& surface, bool two_sided, float intensity) {
+    LightBounds first;
+    for (int c = 0; c < (surface.quad ? 4 : 3); ++c) first.box.add(surface.corners[c]);
+    first.axis = surface.normals[0];
+    first.two_sided = two_sided;
+    first.intensity = intensity;
+    if (!surface.quad) return first;
+    LightBounds second = first;
+    second.axis = surface.normals[1];
+    LightBounds both = merge(first, second);
+    both.intensity = intensity;
+    return both;
+}
+
+std::optional<SurfaceSample> SampledSurfaces::sample(const LitPlace& place, float choice,
+                                                     Vec2 spot) const {
+    check(!surfaces_.empty(), "SampledSurfaces: nothing to sample");
+    // One variable for every return, built where the caller gets it: a copy would cost as much as
+    // the rest.
+    std::optional<SurfaceSample> result;
+    LightClusters::Choice chosen = {0, 1};
+    if (surfaces_.size() > 1) {
+        const auto found = clusters_.sample(place, choice);
+        if (!found) return result;
+        chosen = *found;
+    }
+    result.emplace();
+    const Surface& surface = surfaces_[chosen.light];
+    result->point = surface.where;
+    result->surface = chosen.light;
+    result->pdf_area = chosen.probability * surface.inverse_area;
+    place_on(surface, spot, *result);
+    return result;
+}
+
+// Evenly over the surface's area.
+inline void SampledSurfaces::place_on(const Surface& surface, Vec2 spot, SurfaceSample& result) {
+    // The (u, v) of the primitive. Where half a quad was chosen first, the number used is spread
+    // again.
+    Vec2 uv;
+    if (!surface.quad) {
+        uv = square_to_triangle(spot);
+    } else if (surface.parallelogram) {
+        uv = spot;
+    } else if (spot.x < surface.first_half) {
+        uv = square_to_triangle({spot.x / surface.first_half, spot.y});
+    } else {
+        const float rest = (spot.x - surface.first_half) / (1 - surface.first_half);
+        uv = Vec2(1) - square_to_triangle({std::min(rest, 1.0f), spot.y});
+    }
+    result.point.u = uv.x;
+    result.point.v = uv.y;
+
+    // The position, on the half that (u, v) lies in (scene/surface.h).
+    const auto& c = surface.corners;
+    const bool second = surface.quad && uv.x + uv.y > 1;
+    result.normal = surface.normals[second];
+    if (!surface.quad)
+        result.position = c[0] + uv.x * (c[1] - c[0]) + uv.y * (c[2] - c[0]);
+    else if (!second)
+        result.position = c[0] + uv.x * (c[1] - c[0]) + uv.y * (c[3] - c[0]);
+    else
+        result.position = c[2] + (1 - uv.x) * (c[3] - c[2]) + (1 - uv.y) * (c[1] - c[2]);
+}
+
+float SampledSurfaces::pdf(const LitPlace& place, ObjectId object, std::uint32_t primitive) const {
+    const std::vector<std::uint32_t>& surfaces = surface_of_[index_of(object)];
+    if (surfaces.empty() || surfaces[primitive] == kNone) return 0;
+    const std::uint32_t surface = surfaces[primitive];
+    return clusters_.pdf(place, surface) * surfaces_[surface].inverse_area;
+}
+
+}  // namespace chiaro
