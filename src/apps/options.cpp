@@ -68,10 +68,11 @@ RendererName parse_renderer(const std::string& text, RendererName otherwise) {
     if (text.empty()) return otherwise;
     if (text == "path") return RendererName::path;
     if (text == "gather") return RendererName::gather;
-    for (const char* later : {"bidirectional", "caustic"})
-        if (text == later)
-            throw Error("--renderer", text + " comes in a later version", "use gather or path");
-    throw Error("--renderer", "there is no renderer '" + text + "'", "choose gather or path");
+    if (text == "caustic") return RendererName::caustic;
+    if (text == "bidirectional")
+        throw Error("--renderer", text + " comes in a later version", "use path");
+    throw Error("--renderer", "there is no renderer '" + text + "'",
+                "choose gather, path or caustic");
 }
 
 void check_only_path(const Options& options) {
@@ -134,7 +135,7 @@ void add_view_options(CLI::App& command, Options& o) {
 void add_render_options(CLI::App& command, Options& o) {
     command.add_option(
         "--renderer", o.renderer,
-        "sample renderer: gather or path (default: gather; with --scheme paper, path)");
+        "sample renderer: gather, path or caustic (default: gather; with --scheme paper, path)");
     command.add_option("--threads", o.threads, "threads to use (default: all)");
     command.add_option("--seed", o.seed, "of all random numbers")
         ->capture_default_str()

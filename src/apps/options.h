@@ -49,7 +49,7 @@ PictureSize parse_size(const std::string& text);
 glm::dvec3 parse_vector(const std::string& option, const std::string& text);
 Scheme parse_scheme(const std::string& text);
 Aov parse_aov(const std::string& text);
-enum class RendererName { path, gather };
+enum class RendererName { path, gather, caustic };
 /// `otherwise` where nothing was asked for.
 RendererName parse_renderer(const std::string& text, RendererName otherwise);
 /// For commands that only have `path`.

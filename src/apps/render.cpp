@@ -1,17 +1,15 @@
 // chiaro render: the Shading Cache without a window.
 
 #include "apps/commands.h"
+#include "apps/make_renderer.h"
 #include "apps/open_scene.h"
 #include "apps/output.h"
 #include "base/error.h"
 #include "import/output_file.h"
-#include "sample_renderer/gather_renderer.h"
-#include "sample_renderer/path_renderer.h"
 
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 namespace chiaro {
 namespace {
@@ -88,13 +86,8 @@ int render_command(const Options& options) {
     const RayCaster rays(scene, settings.threads);
     const AreaLights area_lights(scene);
     OpenSides open_sides(scene);
-    std::unique_ptr<SampleRenderer> renderer;
-    if (renderer_name == RendererName::gather)
-        renderer = std::make_unique<GatherRenderer>(scene, rays, area_lights, &open_sides,
-                                                    settings.threads);
-    else
-        renderer =
-            std::make_unique<PathRenderer>(scene, rays, area_lights, &open_sides, settings.threads);
+    const auto renderer =
+        make_renderer(renderer_name, scene, rays, area_lights, &open_sides, settings.threads);
     UpdateCycle cycle(rays, *renderer, open_sides, settings);
     cycle.look_from(View(camera, size.width, size.height));
 

@@ -2,13 +2,13 @@
 // rtrace.
 
 #include "apps/commands.h"
+#include "apps/make_renderer.h"
 #include "apps/open_scene.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "import/directions.h"
 #include "import/load_scene.h"
 #include "import/text_lines.h"
-#include "sample_renderer/path_renderer.h"
 #include "sample_renderer/radiance.h"
 
 #include <poll.h>
@@ -111,37 +111,44 @@ Effort effort_of(const Options& options) {
             thread_count(options)};
 }
 
-// Irradiance at the lines' places, or radiance along them; `first` is the first line's number.
-std::vector<Rgb> measure(const LitScene& lit, const std::vector<Line>& lines, std::size_t first,
-                         const Options& options) {
-    const auto [direct, indirect, threads] = effort_of(options);
-    const std::uint32_t seed = short_seed(options.seed);
-    if (!options.irradiance) {
-        // A ray's random numbers are named by its place in a block of lines: rays that are switched
-        // off stand for the lines of the block that are answered already.
-        const std::size_t before = first % kLinesAtOnce;
-        std::vector<Ray> rays(before, {.t_max = -1});
-        for (const Line& line : lines)
-            rays.push_back({line.position, line.direction, 0, kInfinity});
-        std::vector<Rgb> values(rays.size());
-        const std::uint32_t block_seed = hash32(seed, static_cast<std::uint32_t>(first - before));
-        radiance(lit, rays, {block_seed, 0, indirect, threads}, values);
-        values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(before));
-        return values;
-    }
-    std::vector<Rgb> values(lines.size());
-    std::vector<MeterPlace> places;
+// Radiance along the lines; `first` is the first one's number.
+std::vector<Rgb> measure_radiance(const LitScene& lit, const std::vector<Line>& lines,
+                                  std::size_t first, const Options& options) {
+    // A ray's random numbers are named by its place in a block of lines: rays that are switched off
+    // stand for the lines of the block that are answered already.
+    const std::size_t before = first % kLinesAtOnce;
+    std::vector<Ray> rays(before, {.t_max = -1});
+    for (const Line& line : lines) rays.push_back({line.position, line.direction, 0, kInfinity});
+    std::vector<Rgb> values(rays.size());
+    const std::uint32_t seed =
+        hash32(short_seed(options.seed), static_cast<std::uint32_t>(first - before));
+    const Effort effort = effort_of(options);
+    radiance(lit, rays, {seed, 0, effort.indirect, effort.threads}, values);
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(before));
+    return values;
+}
+
+// Irradiance at the lines' places.
+std::vector<Rgb> measure_irradiance(SampleRenderer& renderer, const std::vector<Line>& lines,
+                                    std::size_t first, const Options& options) {
+    const Effort effort = effort_of(options);
     std::vector<ShadeRequest> requests(lines.size());
     std::vector<ShadeResult> results(lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        places.push_back({lines[i].position, lines[i].direction});
+        requests[i].place = {lines[i].position, lines[i].direction};
         requests[i].light = Light::total;
-        requests[i].seed = hash32(seed, static_cast<std::uint32_t>(first + i));
-        requests[i].samples = direct;
-        requests[i].indirect_samples = indirect;
+        requests[i].seed = hash32(short_seed(options.seed), static_cast<std::uint32_t>(first + i));
+        requests[i].samples = effort.direct;
+        requests[i].indirect_samples = effort.indirect;
     }
-    shade_places(lit, places, requests, threads, results);
-    for (std::size_t i = 0; i < lines.size(); ++i) values[i] = results[i].mean;
+    // What `gather` knows grows from call to call, and when lines come must not show in the
+    // answers.
+    const std::size_t at_once = renderer.remembers() ? 1 : lines.size();
+    for (std::size_t i = 0; i < lines.size(); i += at_once)
+        renderer.shade(std::span(requests).subspan(i, at_once),
+                       std::span(results).subspan(i, at_once));
+    std::vector<Rgb> values;
+    for (const ShadeResult& result : results) values.push_back(result.mean);
     return values;
 }
 
@@ -159,7 +166,8 @@ void print(const std::vector<Rgb>& values, bool lux) {
 }  // namespace
 
 int trace_command(const Options& options) {
-    check_only_path(options);
+    if (!options.irradiance) check_only_path(options);
+    const RendererName name = parse_renderer(options.renderer, RendererName::path);
     if (options.lux && !options.irradiance)
         throw Error("--lux", "radiance is not measured in lux", "add -I");
     const Effort effort = effort_of(options);
@@ -167,12 +175,15 @@ int trace_command(const Options& options) {
     const RayCaster rays(scene, effort.threads);
     const AreaLights area_lights(scene);
     const LitScene lit = make_lit_scene(scene, rays, area_lights);
+    const auto renderer = make_renderer(name, scene, rays, area_lights, nullptr, effort.threads);
 
     std::vector<Line> lines;
     InputLines input;
     std::size_t done = 0;
     const auto flush = [&] {
-        print(measure(lit, lines, done, options), options.lux);
+        print(options.irradiance ? measure_irradiance(*renderer, lines, done, options)
+                                 : measure_radiance(lit, lines, done, options),
+              options.lux);
         done += lines.size();
         lines.clear();
     };

@@ -26,7 +26,7 @@ void add_area_light_sample(const LitScene& lit, const Receiver& receiver, const 
     if (!connection) return;
     const float of_light = kLightSamplesPerRay * connection->pdf_solid_angle;
     const float weight = of_light / (of_light + connection->pdf_cosine());
-    shadows.add(connection->shadow_ray, connection->irradiance * weight, sample % kReplicates);
+    shadows.add(*connection, connection->irradiance * weight, sample % kReplicates);
 }
 
 void add_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t replicate,
@@ -75,7 +75,7 @@ Rgb exact_direct_light(const LitScene& lit, const Receiver& receiver, PathWave& 
         if (!few(lights)) continue;
         for (const std::uint32_t light : lights)
             if (const auto connection = connect_punctual(lit, receiver, light))
-                scratch.shadows.add(connection->shadow_ray, connection->irradiance, 0);
+                scratch.shadows.add(*connection, connection->irradiance, 0);
     }
     Rgb sum(0);
     scratch.shadows.settle(lit.caster, {&sum, 1});
@@ -104,8 +104,7 @@ void add_direct_samples(const LitScene& lit, const Receiver& receiver, std::uint
     const auto add_samples = [&](const auto& connect) {
         for (std::uint32_t i = first; i < first + count; ++i)
             if (const auto connection = connect(lit, receiver, sequence.number(i, kLightChoice)))
-                scratch.shadows.add(connection->shadow_ray, connection->irradiance,
-                                    i % kReplicates);
+                scratch.shadows.add(*connection, connection->irradiance, i % kReplicates);
     };
     if (!few(lit.punctual.lamps())) add_samples(connect_lamp);
     if (!few(lit.punctual.suns())) add_samples(connect_sun);

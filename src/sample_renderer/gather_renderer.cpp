@@ -201,7 +201,7 @@ void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<Sha
             thread_local Scratch scratch;
             const Task& task = tasks[begin + i];
             const ShadeRequest& request = requests[task.request];
-            const Receiver receiver = surface_receiver(lit_, request);
+            const Receiver receiver = request_receiver(lit_, request);
             parts[begin + i] =
                 task.direct
                     ? run_direct(lit_, open_sides_, receiver, task, request, scratch.wave)

@@ -26,6 +26,7 @@ public:
                    const OpenSides* open_sides, int threads);
     void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) override;
     SampleCosts typical_costs() const override;
+    bool remembers() const override { return true; }
 
     const IrradianceCells& cells() const { return cells_; }
 

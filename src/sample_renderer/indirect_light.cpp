@@ -10,7 +10,8 @@ Ray first_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t 
             sample_receiving_cosine(receiver, sequence.pair(sample, kFirstDirection))};
 }
 
-// One cosine-distributed ray a sample. Cosine over density is pi, which is the path's throughput.
+}  // namespace
+
 void start_paths(const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
                  std::uint32_t count, PathWave& wave) {
     const Sequence sequence(seed);
@@ -19,17 +20,16 @@ void start_paths(const Receiver& receiver, std::uint32_t seed, std::uint32_t fir
         wave.add(first_ray(receiver, sequence, i), make_path(sequence, i, i % kReplicates));
 }
 
-RayCount count_inside(const OpenSides& open_sides, std::span<const Hit> hits) {
+RayCount count_inside(const OpenSides* open_sides, std::span<const Hit> hits) {
     RayCount count;
+    if (!open_sides) return count;
     for (const Hit& hit : hits) {
         ++count.shot;
-        if (hit && open_sides.is_inside(hit.point.object, hit.point.primitive, hit.front))
+        if (hit && open_sides->is_inside(hit.point.object, hit.point.primitive, hit.front))
             ++count.inside;
     }
     return count;
 }
-
-}  // namespace
 
 RayCount add_indirect_samples(const LitScene& lit, const OpenSides* open_sides,
                               const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
@@ -38,7 +38,7 @@ RayCount add_indirect_samples(const LitScene& lit, const OpenSides* open_sides,
     start_paths(receiver, seed, first, count, scratch);
     scratch.hits.resize(scratch.rays.size());
     lit.caster.intersect(scratch.rays, scratch.hits);
-    const RayCount rays = open_sides ? count_inside(*open_sides, scratch.hits) : RayCount{};
+    const RayCount rays = count_inside(open_sides, scratch.hits);
 
     std::array<Rgb, kReplicates> radiance = {};
     follow(lit, scratch, FirstEmission::skipped, radiance, ends_at);
@@ -54,7 +54,7 @@ RayCount probe(const LitScene& lit, const OpenSides& open_sides, const Receiver&
         scratch.rays.push_back(first_ray(receiver, sequence, i));
     scratch.hits.resize(count);
     lit.caster.intersect(scratch.rays, scratch.hits);
-    return count_inside(open_sides, scratch.hits);
+    return count_inside(&open_sides, scratch.hits);
 }
 
 }  // namespace chiaro

@@ -15,6 +15,14 @@ struct RayCount {
     bool mostly_inside() const { return shot > 0 && 4 * inside >= 3 * shot; }
 };
 
+/// Of rays that met something, those that met the inside of a solid. `open_sides` may be null.
+RayCount count_inside(const OpenSides* open_sides, std::span<const Hit> hits);
+
+/// Puts one cosine-distributed ray a sample into the emptied wave. Cosine over density is pi, which
+/// the throughput leaves out.
+void start_paths(const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
+                 std::uint32_t count, PathWave& wave);
+
 /// Adds the estimates of samples [first, first + count) to the sums of their replicates [lux a
 /// channel]. `open_sides` may be null. What paths end at early is not added here (path_wave.h).
 RayCount add_indirect_samples(const LitScene& lit, const OpenSides* open_sides,

@@ -7,8 +7,6 @@
 namespace chiaro {
 namespace {
 
-constexpr float kShortOfLamp = 1 - 1e-4f;  // of the way there: it may stand in a surface
-
 std::optional<LightConnection> over(std::optional<LightConnection> connection, float probability) {
     if (connection) connection->irradiance /= probability;
     return connection;
@@ -77,10 +75,9 @@ std::optional<LightConnection> connect_punctual(const LitScene& lit, const Recei
     connection.to_light = found->to_light;
     connection.cosine = cosine;
     connection.irradiance = found->irradiance * cosine;
-    connection.shadow_ray =
-        light.kind == LightKind::directional
-            ? Ray{receiver.origin, found->to_light}
-            : Ray{receiver.origin, light.position - receiver.origin, 0, kShortOfLamp};
+    connection.shadow_ray = light.kind == LightKind::directional
+                                ? Ray{receiver.origin, found->to_light}
+                                : ray_to_lamp(receiver.origin, light.position);
     return connection;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rays/ray_caster.h"
+#include "sample_renderer/flat_mirrors.h"
 #include "sample_renderer/punctual_lights.h"
 #include "scene/area_lights.h"
 
@@ -14,6 +15,7 @@ struct LitScene {
     const RayCaster& caster;
     const AreaLights& area_lights;
     PunctualLights punctual;
+    std::span<const FlatMirror> mirrors = {};  // in which punctual lights are looked for
 
     /// True if nothing shines.
     bool dark() const { return area_lights.empty() && punctual.empty(); }
@@ -67,7 +69,8 @@ float pdf_receiving_cosine(const Receiver& receiver, Vec3 w);
 /// A sample of the light at a receiver, before it is known whether it is blocked.
 struct LightConnection {
     Ray shadow_ray;
-    Vec3 to_light;     // unit
+    std::optional<Ray> second_ray;  // from a mirror on, where light comes by way of one
+    Vec3 to_light;                  // unit
     Rgb irradiance;    // the sample's estimate: over the density with which it was chosen
     float cosine = 0;  // receiving_cosine() of the direction, which is in `irradiance`; > 0
     float pdf_solid_angle =
@@ -76,6 +79,11 @@ struct LightConnection {
     /// Of the direction, by sampling the cosine at the receiver.
     float pdf_cosine() const { return cosine * (1 / kPi); }
 };
+
+/// A ray from a place to a lamp, not quite the whole way: the lamp may stand in a surface.
+inline Ray ray_to_lamp(Vec3 from, Vec3 lamp) {
+    return {from, lamp - from, 0, 1 - 1e-4f};
+}
 
 /// A point of the area lights; nothing if it cannot shine on the receiver. `choice` and `spot` as
 /// AreaLights::sample() has them. Checks: there are area lights.

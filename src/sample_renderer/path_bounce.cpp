@@ -1,5 +1,6 @@
 #include "sample_renderer/path_bounce.h"
 
+#include "sample_renderer/mirror_light.h"
 #include "scene/scattering.h"
 
 #include <algorithm>
@@ -11,6 +12,9 @@ constexpr float kMostSurvival = 0.98f;  // or a closed room of albedo 1 would ne
 
 // Up to here a path ends at no smooth surface by roulette: no light sample took what it may find.
 constexpr std::uint32_t kSureBounces = 8;
+
+// Lamps in mirrors that are tried at a bounce.
+constexpr std::size_t kImagesABounce = 64;
 
 // Asks one light of each kind: none takes samples from another, which may be hidden where it seems
 // brightest. Calls add(connection).
@@ -25,6 +29,7 @@ void connect_lights(const LitScene& lit, const Receiver& receiver, const Path& p
         if (const auto found = connect_lamp(lit, receiver, path.light_choice)) add(*found);
     if (!lit.punctual.suns().empty())
         if (const auto found = connect_sun(lit, receiver, path.light_choice)) add(*found);
+    for_each_image(lit, receiver, path.light_choice, kImagesABounce, add);
 }
 
 // Weight of a light sample against a ray of density `pdf` in its direction.
@@ -41,8 +46,7 @@ void add_scattered_light(const Bounce& here, const Receiver& receiver, const Sca
         const Rgb value = path.throughput * scattered(surface, found.to_light);
         if (!(max_component(value) > 0)) return;
         const float weight = light_weight(found, pdf_scattering(surface, found.to_light));
-        here.shadows.add(found.shadow_ray, value * found.irradiance * (weight / found.cosine),
-                         path.slot);
+        here.shadows.add(found, value * found.irradiance * (weight / found.cosine), path.slot);
     });
 }
 
@@ -55,7 +59,8 @@ void draw_light_numbers(const Bounce& here, BounceNumbers& numbers, Path& path) 
 
 // Russian roulette on what the path has come to carry; false if it ends.
 bool survives(float number, Path& path) {
-    const float survival = std::min(kMostSurvival, path.index2 * max_component(path.throughput));
+    const float survival =
+        std::min(kMostSurvival, path.roulette_scale * max_component(path.throughput));
     if (!(number < survival)) return false;
     path.throughput *= 1 / survival;
     return true;
@@ -78,7 +83,7 @@ void go_on(const Bounce& here, const Bsdf& bsdf, const BsdfSample& sample, Path&
     }
     const Receiver& receiver = here.surface.receiver;
     const Receiver start = passes ? other_side(receiver) : receiver;
-    if (passes && !bsdf.thin) path.index2 *= bsdf.eta * bsdf.eta;
+    if (passes && !bsdf.thin) path.roulette_scale *= bsdf.eta * bsdf.eta;
     ray = {start.origin, sample.direction};
     path.normal = start.geometric_normal;
     path.pdf = sample.pdf;
@@ -128,7 +133,7 @@ bool reflect_diffusely(const Bounce& here, Path& path, Ray& ray) {
     const Rgb brdf = reflected * (1 / kPi);
     connect_lights(here.lit, receiver, path, [&](const LightConnection& found) {
         const float weight = light_weight(found, found.pdf_cosine());
-        here.shadows.add(found.shadow_ray, brdf * found.irradiance * weight, path.slot);
+        here.shadows.add(found, brdf * found.irradiance * weight, path.slot);
     });
 
     path.throughput = reflected;

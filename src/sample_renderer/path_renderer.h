@@ -2,14 +2,13 @@
 // cap on bounces. The ground truth that other renderers are measured against.
 #pragma once
 
-#include "sample_renderer/next_event.h"
-#include "sample_renderer/sample_renderer.h"
-#include "scene/open_sides.h"
+#include "sample_renderer/shade_tasks.h"
 
 namespace chiaro {
 
-/// Surfaces are Lambertian of their base colour on both sides. Irradiance is taken with the cosine
-/// about the shading normal, folded up where it reaches below the real plane (next_event.h).
+/// Irradiance is taken with the cosine about the shading normal, folded up where it reaches below
+/// the real plane (next_event.h). Lacks the light of punctual lights by way of smooth surfaces,
+/// which no path finds by chance.
 ///
 /// Thread: as SampleRenderer. Keeps references: objects and materials may be edited between calls,
 /// if the caster and the area lights are brought up to date with them; build anew when punctual
@@ -28,17 +27,5 @@ private:
     const OpenSides* open_sides_;
     int threads_;
 };
-
-/// A place in space that light is measured at, as by a lux meter: it need not lie on a surface.
-struct MeterPlace {
-    Vec3 position;
-    Vec3 normal;  // unit
-};
-
-/// As PathRenderer::shade(), at `places` instead of the requests' surface points, which are not
-/// read. All three spans are of one length. The same bits on any number of threads.
-void shade_places(const LitScene& lit, std::span<const MeterPlace> places,
-                  std::span<const ShadeRequest> requests, int threads,
-                  std::span<ShadeResult> results);
 
 }  // namespace chiaro

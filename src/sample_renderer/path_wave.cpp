@@ -2,22 +2,32 @@
 
 #include "sample_renderer/path_bounce.h"
 
+#include <algorithm>
+
 namespace chiaro {
 void ShadowBatch::clear() {
     rays.clear();
     values.clear();
     slots.clear();
+    second_rays.clear();
+    second_of.clear();
 }
 
-void ShadowBatch::add(const Ray& ray, Rgb value, std::uint32_t slot) {
-    rays.push_back(ray);
+void ShadowBatch::add(const LightConnection& connection, Rgb value, std::uint32_t slot) {
+    if (connection.second_ray) {
+        second_rays.push_back(*connection.second_ray);
+        second_of.push_back(static_cast<std::uint32_t>(rays.size()));
+    }
+    rays.push_back(connection.shadow_ray);
     values.push_back(value);
     slots.push_back(slot);
 }
 
 void ShadowBatch::settle(const RayCaster& caster, std::span<Rgb> sums) {
-    through.resize(rays.size());
-    caster.transmittance(rays, through);
+    through.resize(std::max(rays.size(), second_rays.size()));
+    caster.transmittance(second_rays, std::span(through).first(second_rays.size()));
+    for (std::size_t i = 0; i < second_rays.size(); ++i) values[second_of[i]] *= through[i];
+    caster.transmittance(rays, std::span(through).first(rays.size()));
     for (std::size_t i = 0; i < rays.size(); ++i) sums[slots[i]] += through[i] * values[i];
     clear();
 }

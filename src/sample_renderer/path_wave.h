@@ -19,8 +19,9 @@ struct Path {
     Vec2 light_place = {};   // at the first hit: where on a light,
     float light_choice = 0;  // and which of each kind of light
     Vec3 normal = Vec3(0);   // LitPlace's, where the ray started; after the first hit
-    float index2 = 1;        // squared index of the glass that it is in: radiance in there is dense
-    bool first = true;       // it is still on its first ray, though that may have passed panes
+    float roulette_scale = 1;  // of the throughput, for survival: what is small because radiance in
+                               // glass is dense, or because of a weight, is worth following
+    bool first = true;         // it is still on its first ray, though that may have passed panes
 };
 
 /// The path of `sample` of the sequence before its first ray.
@@ -36,10 +37,12 @@ struct ShadowBatch {
     std::vector<Ray> rays;
     std::vector<Rgb> values;
     std::vector<std::uint32_t> slots;
+    std::vector<Ray> second_rays;          // of those that a mirror bends,
+    std::vector<std::uint32_t> second_of;  // and which they belong to
     std::vector<Rgb> through;
 
     void clear();
-    void add(const Ray& ray, Rgb value, std::uint32_t slot);
+    void add(const LightConnection& connection, Rgb value, std::uint32_t slot);
     /// Casts all rays, adds what arrives to sums[slot], and clears.
     void settle(const RayCaster& caster, std::span<Rgb> sums);
 };

@@ -4,6 +4,7 @@
 #include "scene/surface.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace chiaro {
@@ -15,6 +16,12 @@ enum class Light : std::uint8_t {
     total,     // both: the single channel of the paper's scheme
 };
 
+/// A place in space that light is measured at, as by a lux meter: it need not lie on a surface.
+struct MeterPlace {
+    Vec3 position;
+    Vec3 normal;  // unit
+};
+
 /// Asks for more samples of one channel at one surface point.
 ///
 /// Samples are numbered; a request covers [first_sample, first_sample + samples) of the point's own
@@ -23,6 +30,7 @@ enum class Light : std::uint8_t {
 struct ShadeRequest {
     SurfacePoint where = {};  // a little inside its patch; the renderer lifts it off the surface
     bool front = true;        // which side of the surface
+    std::optional<MeterPlace> place = std::nullopt;  // instead of these
     Light light = Light::direct;
     std::uint32_t seed = 0;  // of the vertex and channel; equal seeds mean equal random numbers
     std::uint32_t first_sample = 0;
@@ -56,7 +64,7 @@ struct SampleCosts {
     float indirect;
 };
 
-/// The one seam. shade() may be called from the update thread only; it spreads its own work.
+/// The one seam. To be called from the update thread only; it spreads its own work.
 class SampleRenderer {
 public:
     virtual ~SampleRenderer() = default;
@@ -64,6 +72,8 @@ public:
     /// batch and on any number of threads.
     virtual void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) = 0;
     virtual SampleCosts typical_costs() const = 0;
+    /// True if a result depends on what was asked for in calls before.
+    virtual bool remembers() const { return false; }
 };
 
 }  // namespace chiaro

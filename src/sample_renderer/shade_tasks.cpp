@@ -1,6 +1,7 @@
 #include "sample_renderer/shade_tasks.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 
@@ -9,13 +10,15 @@ namespace {
 
 constexpr std::uint32_t kTaskSamples = 1024;  // a wave: large enough for packets, and cached
 constexpr std::uint32_t kProbeRays = 16;
+constexpr std::size_t kTasksPerBody = 8;
 
 void add_tasks(std::uint32_t request, bool direct, std::uint32_t first, std::uint32_t count,
                std::vector<Task>& tasks) {
     check(count > 0 && count % kReplicates == 0,
           "shade: samples must be a multiple of kReplicates");
     for (std::uint32_t done = 0; done < count; done += kTaskSamples)
-        tasks.push_back({request, direct, first + done, std::min(kTaskSamples, count - done)});
+        tasks.push_back(
+            {request, direct, first + done, std::min(kTaskSamples, count - done), done == 0});
 }
 
 // Means of the replicates, over all tasks of one request: direct and indirect light of one
@@ -66,7 +69,11 @@ std::vector<Task> split_into_tasks(std::span<const ShadeRequest> requests) {
     return tasks;
 }
 
-Receiver surface_receiver(const LitScene& lit, const ShadeRequest& request) {
+Receiver request_receiver(const LitScene& lit, const ShadeRequest& request) {
+    if (request.place) {
+        const auto& [position, normal] = *request.place;
+        return {position, position + RayCaster::offset(position) * normal, normal, normal};
+    }
     const SurfaceGeometry g = surface_geometry(lit.scene, request.where);
     const float side = request.front ? 1.0f : -1.0f;
     return make_receiver(lit.caster, request.where.object, g.position, side * g.geometric_normal,
@@ -76,16 +83,15 @@ Receiver surface_receiver(const LitScene& lit, const ShadeRequest& request) {
 TaskResult run_direct(const LitScene& lit, const OpenSides* open_sides, const Receiver& receiver,
                       const Task& task, const ShadeRequest& request, PathWave& scratch) {
     const std::uint32_t seed = hash32(request.seed, kDirectSalt);
-    const bool first_task = task.first == request.first_sample;
     TaskResult result;
-    if (first_task) result.exact = exact_direct_light(lit, receiver, scratch);
+    if (task.starts) result.exact = exact_direct_light(lit, receiver, scratch);
     if (!direct_light_is_exact(lit))
         add_direct_samples(lit, receiver, seed, task.first, task.count, scratch, result.sums);
 
     // A point in the dark may be buried; one that some light reaches is not.
     Rgb total = result.exact;
     for (const Rgb& sum : result.sums) total += sum;
-    if (open_sides != nullptr && first_task && request.light == Light::direct && total == Rgb(0))
+    if (open_sides != nullptr && task.starts && request.light == Light::direct && total == Rgb(0))
         result.rays = probe(lit, *open_sides, receiver, seed, kProbeRays, scratch);
     return result;
 }
@@ -100,6 +106,28 @@ void combine(std::span<const ShadeRequest> requests, std::span<const Task> tasks
                                        parts.subspan(begin, end - begin));
         begin = end;
     }
+}
+
+void shade_requests(const LitScene& lit, const OpenSides* open_sides, int threads,
+                    std::span<const ShadeRequest> requests, std::span<ShadeResult> results,
+                    const RunIndirect& run_indirect) {
+    check(requests.size() == results.size(), "shade: one result a request");
+    const std::vector<Task> tasks = split_into_tasks(requests);
+    std::vector<TaskResult> parts(tasks.size());
+    const std::size_t bodies = (tasks.size() + kTasksPerBody - 1) / kTasksPerBody;
+    parallel_for(threads, bodies, [&](std::size_t body) {
+        thread_local PathWave scratch;
+        const std::size_t end = std::min(tasks.size(), (body + 1) * kTasksPerBody);
+        for (std::size_t t = body * kTasksPerBody; t < end; ++t) {
+            const ShadeRequest& request = requests[tasks[t].request];
+            const Receiver receiver = request_receiver(lit, request);
+            parts[t] = tasks[t].direct
+                           ? run_direct(lit, open_sides, receiver, tasks[t], request, scratch)
+                           : run_indirect(receiver, tasks[t], hash32(request.seed, kIndirectSalt),
+                                          scratch);
+        }
+    });
+    combine(requests, tasks, parts, results);
 }
 
 }  // namespace chiaro

@@ -5,6 +5,8 @@
 #include "sample_renderer/direct_light.h"
 #include "sample_renderer/indirect_light.h"
 
+#include <functional>
+
 namespace chiaro {
 
 // Independent numbers for the two parts of `total`, whose replicates would else vary together.
@@ -16,6 +18,7 @@ struct Task {
     std::uint32_t request;
     bool direct;
     std::uint32_t first, count;
+    bool starts;  // the first piece of its part of the request
 };
 
 struct TaskResult {
@@ -28,12 +31,21 @@ struct TaskResult {
 /// In the order of requests. Checks: samples are multiples of kReplicates.
 std::vector<Task> split_into_tasks(std::span<const ShadeRequest> requests);
 
-/// Where a request's surface point receives light.
-Receiver surface_receiver(const LitScene& lit, const ShadeRequest& request);
+/// Where a request receives light.
+Receiver request_receiver(const LitScene& lit, const ShadeRequest& request);
 
 /// The direct part of a request, by light samples.
 TaskResult run_direct(const LitScene& lit, const OpenSides* open_sides, const Receiver& receiver,
                       const Task& task, const ShadeRequest& request, PathWave& scratch);
+
+/// Computes the indirect part of a request.
+using RunIndirect = std::function<TaskResult(const Receiver& receiver, const Task& task,
+                                             std::uint32_t seed, PathWave& scratch)>;
+
+/// All of shade() for renderers whose tasks are independent. `open_sides` may be null.
+void shade_requests(const LitScene& lit, const OpenSides* open_sides, int threads,
+                    std::span<const ShadeRequest> requests, std::span<ShadeResult> results,
+                    const RunIndirect& run_indirect);
 
 /// One result a request, from all of its parts.
 void combine(std::span<const ShadeRequest> requests, std::span<const Task> tasks,

@@ -38,11 +38,18 @@ struct Meter {
     /// Light at a place that need not lie on a surface.
     ShadeResult at(Vec3 position, Vec3 normal, Light light, std::uint32_t samples,
                    std::uint32_t seed = 1) const {
-        const MeterPlace place = {position, normal};
-        const ShadeRequest request = {
-            .light = light, .seed = seed, .samples = samples, .indirect_samples = samples};
+        PathRenderer renderer(scene, caster, area_lights, nullptr, 1);
+        return at(renderer, position, normal, light, samples, seed);
+    }
+    static ShadeResult at(SampleRenderer& renderer, Vec3 position, Vec3 normal, Light light,
+                          std::uint32_t samples, std::uint32_t seed = 1) {
+        const ShadeRequest request = {.place = MeterPlace{position, normal},
+                                      .light = light,
+                                      .seed = seed,
+                                      .samples = samples,
+                                      .indirect_samples = samples};
         ShadeResult result;
-        shade_places(lit, {&place, 1}, {&request, 1}, 1, {&result, 1});
+        renderer.shade({&request, 1}, {&result, 1});
         return result;
     }
     float lux(Vec3 position, Vec3 normal, Light light, std::uint32_t samples) const {

@@ -1,0 +1,18 @@
+// From a renderer's name to the renderer.
+#pragma once
+
+#include "apps/options.h"
+#include "rays/ray_caster.h"
+#include "sample_renderer/sample_renderer.h"
+#include "scene/area_lights.h"
+
+#include <memory>
+
+namespace chiaro {
+
+/// Keeps references to all of them. `open_sides` may be null: nothing is buried then.
+std::unique_ptr<SampleRenderer> make_renderer(RendererName name, const Scene& scene,
+                                              const RayCaster& rays, const AreaLights& area_lights,
+                                              const OpenSides* open_sides, int threads);
+
+}  // namespace chiaro
