@@ -121,6 +121,19 @@ void check_light(const PunctualLight& light) {
           "scene: a light is not finite");
 }
 
+void check_environment(const Environment& environment) {
+    const auto sound = [](Rgb c) {
+        return is_finite(c) && glm::all(glm::greaterThanEqual(c, Rgb(0)));
+    };
+    const Image& map = environment.map;
+    check(sound(environment.sky), "scene: the sky is not finite or negative");
+    check(map.width >= 0 && map.height >= 0 &&
+              map.pixels.size() == static_cast<std::size_t>(map.width) * map.height,
+          "scene: the environment's size is not that of its pixels");
+    check(std::ranges::all_of(map.pixels, sound),
+          "scene: the environment is not finite or negative");
+}
+
 }  // namespace
 
 Box bounds(const Scene& scene) {
@@ -150,7 +163,8 @@ bool has_light(const Scene& scene) {
         return std::ranges::any_of(scene.mesh_of(object).primitives, emits);
     };
     const auto lit = [](const PunctualLight& light) { return max_component(light.intensity) > 0; };
-    return std::ranges::any_of(scene.lights, lit) || std::ranges::any_of(scene.objects, shines);
+    return std::ranges::any_of(scene.lights, lit) || std::ranges::any_of(scene.objects, shines) ||
+           !is_dark(scene.environment);
 }
 
 std::size_t order_primitives(Mesh& mesh) {
@@ -178,6 +192,7 @@ void check_scene(const Scene& scene) {
     for (const Texture& texture : scene.textures) check_texture(texture);
     for (const Camera& camera : scene.cameras) check_camera(camera);
     for (const PunctualLight& light : scene.lights) check_light(light);
+    check_environment(scene.environment);
     check(is_finite(scene.up) && scene.up != Vec3(0), "scene: up is not a direction");
 }
 

@@ -4,6 +4,7 @@
 #include "base/ids.h"
 #include "base/vec.h"
 #include "scene/camera.h"
+#include "scene/environment.h"
 #include "scene/light.h"
 #include "scene/material.h"
 
@@ -51,7 +52,8 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<PunctualLight> lights;
     std::vector<Camera> cameras;
-    Vec3 up = Vec3(0, 1, 0);            // the world's vertical, for cameras that we choose
+    Environment environment;
+    Vec3 up = Vec3(0, 1, 0);  // the world's vertical: of cameras that we choose, of the environment
     std::vector<std::string> warnings;  // what the importer met and went on from, a line each
 
     const Mesh& mesh_of(const Object& object) const { return meshes[index_of(object.mesh)]; }
@@ -62,7 +64,7 @@ struct Scene {
 /// Bounds in world space of all objects.
 Box bounds(const Scene& scene);
 
-/// True if anything emits: a punctual light, or a primitive of an emissive material.
+/// True if anything emits: a punctual light, a primitive of an emissive material, the environment.
 bool has_light(const Scene& scene);
 
 /// Makes primitives ready for use: quads first (stable within the kinds), `quad_count` set,
