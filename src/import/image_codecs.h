@@ -4,6 +4,8 @@
 
 #include "import/image_file.h"
 
+#include <string_view>
+
 namespace chiaro {
 
 /// Throws an Error at `where` unless a picture of this size and of at most `most_pixels` may be
@@ -22,5 +24,8 @@ Texture decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& wher
 bool is_exr(std::span<const std::uint8_t> bytes);
 Image decode_exr(const std::string& bytes, const std::string& where);
 std::string encode_exr(const Image& image, const std::string& where);
+
+bool is_hdr(std::span<const std::uint8_t> bytes);
+Image decode_hdr(std::string_view bytes, const std::string& where);
 
 }  // namespace chiaro

@@ -36,8 +36,9 @@ Image read_image(const std::filesystem::path& file) {
     const std::string bytes = read_whole_file(file, where);
     if (bytes.empty()) throw Error(where, "the file is empty");
     if (is_exr(as_bytes(bytes))) return decode_exr(bytes, where);
+    if (is_hdr(as_bytes(bytes))) return decode_hdr(bytes, where);
     if (is_png(as_bytes(bytes))) return decode_png_linear(as_bytes(bytes), where);
-    throw Error(where, "the picture is neither OpenEXR nor PNG");
+    throw Error(where, "the picture is neither OpenEXR, Radiance nor PNG");
 }
 
 void write_exr(const std::filesystem::path& file, const Image& image) {

@@ -1,4 +1,4 @@
-// Pictures in files: PNG, JPEG and OpenEXR. The only place that knows their libraries.
+// Pictures in files: PNG, JPEG, OpenEXR and Radiance. The only place that knows their libraries.
 #pragma once
 
 #include "base/image.h"
@@ -22,8 +22,9 @@ inline constexpr std::uint64_t kMaxTexturePixels = std::uint64_t{1} << 26;
 /// Throws an Error at `where` if the bytes are neither, are broken or are too large a picture.
 Texture read_texture(std::span<const std::uint8_t> bytes, const std::string& where);
 
-/// The picture in an OpenEXR file (R, G and B, or Y alone) or a PNG file (decoded from sRGB, alpha
-/// ignored) as linear RGB.
+/// The picture in an OpenEXR file (R, G and B, or Y alone), a Radiance file (.hdr; its exposure
+/// undone, CIE XYZ converted, at least 0 and finite) or a PNG file (decoded from sRGB, alpha
+/// ignored) as linear RGB, told apart by how they begin. Throws an Error that names the file.
 Image read_image(const std::filesystem::path& file);
 
 /// Writes linear RGB as an OpenEXR file of channels R, G and B in floats, ZIP-compressed. An
