@@ -17,6 +17,17 @@ nlohmann::ordered_json names_of(const std::vector<T>& things) {
     return names;
 }
 
+nlohmann::ordered_json describe(const Environment& environment) {
+    if (is_dark(environment)) return nullptr;
+    const Image& map = environment.map;
+    nlohmann::ordered_json j;
+    j["map"] = nullptr;
+    if (environment.has_map()) j["map"] = {map.width, map.height};
+    const Rgb mean = mean_radiance(environment);
+    j["mean_radiance"] = {mean.r, mean.g, mean.b};
+    return j;
+}
+
 nlohmann::ordered_json describe(const Scene& scene) {
     std::size_t quads = 0, triangles = 0, emitters = 0;
     for (const Object& object : scene.objects) {
@@ -43,6 +54,7 @@ nlohmann::ordered_json describe(const Scene& scene) {
     j["materials"] = names_of(scene.materials);
     j["textures"] = names_of(scene.textures);
     j["cameras"] = names_of(scene.cameras);
+    j["environment"] = describe(scene.environment);
     j["warnings"] = scene.warnings;
     return j;
 }
@@ -71,6 +83,10 @@ int info_command(const Options& options) {
     if (!j["bounds"].is_null()) std::printf("bounds     %s\n", j["bounds"].dump().c_str());
     for (const char* list : {"objects", "lights", "materials", "textures", "cameras"})
         print_list(j, list);
+    if (const auto& e = j["environment"]; !e.is_null())
+        std::printf("environment %s, %s cd/m2 in the mean\n",
+                    e["map"].is_null() ? "even" : ("map " + e["map"].dump()).c_str(),
+                    e["mean_radiance"].dump().c_str());
     return 0;
 }
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "import/directions.h"
 #include "import/finish_scene.h"
+#include "import/load_environment.h"
 #include "scene/built_in.h"
 
 #include <algorithm>
@@ -35,12 +36,22 @@ Vec3 parse_place(const std::string& option, const std::string& text) {
     return place;
 }
 
+// None of both options: none.
+Environment choose_environment(const Options& options) {
+    if (!options.environment.empty() && !options.sky.empty())
+        throw Error("--environment and --sky", "a scene has one of them", "leave one out");
+    if (!options.environment.empty()) return load_environment(options.environment);
+    if (!options.sky.empty()) return {.sky = parse_sky(options.sky)};
+    return {};
+}
+
 }  // namespace
 
 Scene open_scene(const Options& options) {
     if (options.scene.empty()) throw Error("SCENE", "no file is named");
     LoadOptions load = {.scale = options.scale};
     if (!options.up.empty()) load.up = unit_or_zero(parse_vector("--up", options.up));
+    Environment environment = choose_environment(options);
     Scene scene;
     if (options.scene.starts_with(kBuiltIn)) {
         auto built_in = built_in_scene(options.scene.substr(kBuiltIn.size()));
@@ -52,6 +63,7 @@ Scene open_scene(const Options& options) {
     } else {
         scene = load_scene(options.scene, load);
     }
+    scene.environment = std::move(environment);
     for (const std::string& warning : scene.warnings) warn(warning);
     return scene;
 }

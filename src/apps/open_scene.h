@@ -6,7 +6,8 @@
 
 namespace chiaro {
 
-/// The scene that the options name. Prints its warnings to standard error, a line each.
+/// The scene that the options name, in the environment that they name. Prints its warnings to
+/// standard error, a line each.
 Scene open_scene(const Options& options);
 
 /// The camera that the options ask for: a named or numbered one, or one from --eye, else the

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "import/image_file.h"
+#include "import/load_scene.h"
 #include "import/text_lines.h"
 
 #include <charconv>
@@ -50,6 +51,15 @@ glm::dvec3 parse_vector(const std::string& option, const std::string& text) {
         rest = rest.substr(std::min(comma + 1, rest.size()));
     }
     return v;
+}
+
+Rgb parse_sky(const std::string& text) {
+    const glm::dvec3 sky = parse_vector("--sky", text);
+    if (glm::any(glm::lessThan(sky, glm::dvec3(0))))
+        throw Error("--sky", "'" + text + "' has a channel below 0");
+    if (glm::any(glm::greaterThan(sky, glm::dvec3(kBrightest))))
+        throw Error("--sky", "'" + text + "' is brighter than 1e15 cd/m2");
+    return Rgb(sky);
 }
 
 Scheme parse_scheme(const std::string& text) {
@@ -120,6 +130,9 @@ void add_scene_options(CLI::App& command, Options& o) {
         ->required();
     command.add_option("--up", o.up, "the vertical of a file that is not y-up, as 0,0,1");
     command.add_option("--scale", o.scale, "multiplies all lengths of the scene");
+    command.add_option("--environment", o.environment,
+                       "light from all around: an equirectangular .hdr or .exr picture in cd/m2");
+    command.add_option("--sky", o.sky, "the same light from everywhere, as 1,1,1 [cd/m2]");
 }
 
 void add_view_options(CLI::App& command, Options& o) {

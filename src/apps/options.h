@@ -28,6 +28,7 @@ struct Options {
     std::string statistics;
     std::optional<float> exposure;
     float scale = 1;
+    std::string environment, sky;
 
     std::optional<double> time;            // seconds after loading
     std::optional<std::uint64_t> samples;  // points shaded
@@ -47,6 +48,8 @@ struct PictureSize {
 /// text, and what would be right.
 PictureSize parse_size(const std::string& text);
 glm::dvec3 parse_vector(const std::string& option, const std::string& text);
+/// Radiance [cd/m2 a channel] of --sky.
+Rgb parse_sky(const std::string& text);
 Scheme parse_scheme(const std::string& text);
 Aov parse_aov(const std::string& text);
 enum class RendererName { path, gather, caustic };

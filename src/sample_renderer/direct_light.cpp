@@ -19,14 +19,26 @@ bool few(std::span<const std::uint32_t> lights) {
     return lights.size() <= kMostExactLights;
 }
 
-void add_area_light_sample(const LitScene& lit, const Receiver& receiver, const Sequence& sequence,
-                           std::uint32_t sample, ShadowBatch& shadows) {
-    const auto connection = connect_area_light(lit, receiver, sequence.number(sample, kLightChoice),
-                                               sequence.pair(sample, kLightPlace));
+// A light sample that a ray may find too.
+void add_light_sample(const std::optional<LightConnection>& connection, std::uint32_t sample,
+                      ShadowBatch& shadows) {
     if (!connection) return;
     const float of_light = kLightSamplesPerRay * connection->pdf_solid_angle;
     const float weight = of_light / (of_light + connection->pdf_cosine());
     shadows.add(*connection, connection->irradiance * weight, sample % kReplicates);
+}
+
+void add_light_samples(const LitScene& lit, const Receiver& receiver, const Sequence& sequence,
+                       std::uint32_t sample, ShadowBatch& shadows) {
+    if (!lit.area_lights.empty())
+        add_light_sample(connect_area_light(lit, receiver, sequence.number(sample, kLightChoice),
+                                            sequence.pair(sample, kLightPlace)),
+                         sample, shadows);
+    if (!lit.environment.empty())
+        add_light_sample(
+            connect_environment(lit, receiver,
+                                sequence.rotated_pair(sample, kLightPlace, kSkyRotation)),
+            sample, shadows);
 }
 
 void add_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t replicate,
@@ -37,8 +49,14 @@ void add_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t r
     if (pdf > 0) wave.add({receiver.origin, direction}, {.pdf = pdf, .slot = replicate});
 }
 
-// Emission that the cosine-distributed rays meet, and behind panes. Each ray stands for
-// kLightSamplesPerRay samples.
+// What a cosine-distributed ray found that light samples find with that density. It stands for
+// kLightSamplesPerRay of them.
+Rgb met_light(const Path& path, Rgb radiance, float pdf_light) {
+    const float of_light = kLightSamplesPerRay * pdf_light;
+    return radiance * (kPi * kLightSamplesPerRay * path.pdf / (of_light + path.pdf));
+}
+
+// Emission that these rays meet, and behind panes; the environment where they meet nothing.
 void settle_rays(const LitScene& lit, const Receiver& receiver, PathWave& wave,
                  std::span<Rgb, kReplicates> sums) {
     while (!wave.rays.empty()) {
@@ -49,14 +67,17 @@ void settle_rays(const LitScene& lit, const Receiver& receiver, PathWave& wave,
             Ray ray = wave.rays[i];
             Path path = wave.paths[i];
             const Hit& hit = wave.hits[i];
-            if (!hit) continue;
-            const Rgb radiance = path.throughput * emission(lit.scene, hit.point, hit.front);
-            if (max_component(radiance) > 0) {
-                const float of_light = kLightSamplesPerRay *
-                                       pdf_area_light(lit, lit_place(receiver), ray.direction, hit);
-                sums[path.slot] +=
-                    radiance * (kPi * kLightSamplesPerRay * path.pdf / (of_light + path.pdf));
+            if (!hit) {
+                if (!lit.environment.empty())
+                    sums[path.slot] +=
+                        met_light(path, path.throughput * lit.environment.radiance(ray.direction),
+                                  lit.environment.pdf(lit_place(receiver), ray.direction));
+                continue;
             }
+            const Rgb radiance = path.throughput * emission(lit.scene, hit.point, hit.front);
+            if (max_component(radiance) > 0)
+                sums[path.slot] += met_light(
+                    path, radiance, pdf_area_light(lit, lit_place(receiver), ray.direction, hit));
             path.throughput *= passed_straight(lit, hit, ray);
             if (!(max_component(path.throughput) > 0)) continue;
             wave.rays[left] = ray;
@@ -83,7 +104,8 @@ Rgb exact_direct_light(const LitScene& lit, const Receiver& receiver, PathWave& 
 }
 
 bool direct_light_is_exact(const LitScene& lit) {
-    return lit.area_lights.empty() && few(lit.punctual.lamps()) && few(lit.punctual.suns());
+    return lit.area_lights.empty() && lit.environment.empty() && few(lit.punctual.lamps()) &&
+           few(lit.punctual.suns());
 }
 
 void add_direct_samples(const LitScene& lit, const Receiver& receiver, std::uint32_t seed,
@@ -91,9 +113,9 @@ void add_direct_samples(const LitScene& lit, const Receiver& receiver, std::uint
                         std::span<Rgb, kReplicates> sums) {
     const Sequence sequence(seed);
     scratch.clear();
-    if (!lit.area_lights.empty()) {
+    if (!lit.area_lights.empty() || !lit.environment.empty()) {
         for (std::uint32_t i = first; i < first + count; ++i) {
-            add_area_light_sample(lit, receiver, sequence, i, scratch.shadows);
+            add_light_samples(lit, receiver, sequence, i, scratch.shadows);
             const std::uint32_t replicate = i % kReplicates;
             const std::uint32_t index = i / kReplicates;
             if (traces_ray(seed, replicate, index))

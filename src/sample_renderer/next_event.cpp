@@ -16,7 +16,7 @@ std::optional<LightConnection> over(std::optional<LightConnection> connection, f
 
 LitScene make_lit_scene(const Scene& scene, const RayCaster& caster,
                         const AreaLights& area_lights) {
-    return {scene, caster, area_lights, PunctualLights(scene)};
+    return {scene, caster, area_lights, PunctualLights(scene), EnvironmentLight(scene)};
 }
 
 Receiver make_receiver(const RayCaster& caster, ObjectId object, Vec3 position,
@@ -116,6 +116,22 @@ std::optional<LightConnection> connect_sun(const LitScene& lit, const Receiver& 
         before += chosen.probability;
     }
     return over(connect_punctual(lit, receiver, chosen.light), chosen.probability);
+}
+
+std::optional<LightConnection> connect_environment(const LitScene& lit, const Receiver& receiver,
+                                                   Vec2 place) {
+    const auto sample = lit.environment.sample(lit_place(receiver), place);
+    if (!sample || sample->radiance == Rgb(0)) return std::nullopt;
+    const float cosine = receiving_cosine(receiver, sample->direction);
+    if (cosine <= 0) return std::nullopt;
+
+    LightConnection connection;
+    connection.shadow_ray = {receiver.origin, sample->direction};
+    connection.to_light = sample->direction;
+    connection.irradiance = sample->radiance * (cosine / sample->pdf);
+    connection.cosine = cosine;
+    connection.pdf_solid_angle = sample->pdf;
+    return connection;
 }
 
 float pdf_area_light(const LitScene& lit, const LitPlace& from, Vec3 direction, const Hit& hit) {

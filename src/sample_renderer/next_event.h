@@ -6,6 +6,7 @@
 #include "sample_renderer/flat_mirrors.h"
 #include "sample_renderer/punctual_lights.h"
 #include "scene/area_lights.h"
+#include "scene/environment_light.h"
 
 namespace chiaro {
 
@@ -15,12 +16,13 @@ struct LitScene {
     const RayCaster& caster;
     const AreaLights& area_lights;
     PunctualLights punctual;
+    EnvironmentLight environment;
     std::span<const FlatMirror> mirrors = {};  // in which punctual lights are looked for
 
     /// True if nothing shines.
-    bool dark() const { return area_lights.empty() && punctual.empty(); }
+    bool dark() const { return area_lights.empty() && punctual.empty() && environment.empty(); }
 };
-/// Build anew when the scene's punctual lights change.
+/// Build anew when the scene's punctual lights or its environment change.
 LitScene make_lit_scene(const Scene& scene, const RayCaster& caster, const AreaLights& area_lights);
 
 /// A surface point from the side that light arrives on.
@@ -74,7 +76,7 @@ struct LightConnection {
     Rgb irradiance;    // the sample's estimate: over the density with which it was chosen
     float cosine = 0;  // receiving_cosine() of the direction, which is in `irradiance`; > 0
     float pdf_solid_angle =
-        0;  // of the direction, by area sampling; 0: no other technique finds it
+        0;  // of the direction, by light samples; 0: no other technique finds it
 
     /// Of the direction, by sampling the cosine at the receiver.
     float pdf_cosine() const { return cosine * (1 / kPi); }
@@ -103,6 +105,11 @@ std::optional<LightConnection> connect_lamp(const LitScene& lit, const Receiver&
 /// in [0, 1).
 std::optional<LightConnection> connect_sun(const LitScene& lit, const Receiver& receiver,
                                            float choice);
+
+/// A direction of the environment; nothing if that is worth nothing. `place` in [0, 1)^2. Checks:
+/// the environment shines.
+std::optional<LightConnection> connect_environment(const LitScene& lit, const Receiver& receiver,
+                                                   Vec2 place);
 
 /// Density over solid angle with which connect_area_light() takes `direction` at `from`, the
 /// lit_place() of a receiver, where a ray of that unit direction met `hit`.

@@ -10,6 +10,9 @@ namespace {
 
 constexpr float kMostSurvival = 0.98f;  // or a closed room of albedo 1 would never end
 
+// Numbers of their own, so that those of all else stay what they are without an environment.
+constexpr std::uint32_t kSkySalt = 0x5c1e5a17;
+
 // Up to here a path ends at no smooth surface by roulette: no light sample took what it may find.
 constexpr std::uint32_t kSureBounces = 8;
 
@@ -29,6 +32,8 @@ void connect_lights(const LitScene& lit, const Receiver& receiver, const Path& p
         if (const auto found = connect_lamp(lit, receiver, path.light_choice)) add(*found);
     if (!lit.punctual.suns().empty())
         if (const auto found = connect_sun(lit, receiver, path.light_choice)) add(*found);
+    if (!lit.environment.empty())
+        if (const auto found = connect_environment(lit, receiver, path.sky_place)) add(*found);
     for_each_image(lit, receiver, path.light_choice, kImagesABounce, add);
 }
 
@@ -55,6 +60,8 @@ void draw_light_numbers(const Bounce& here, BounceNumbers& numbers, Path& path) 
     if (here.number == 0) return;
     path.light_choice = numbers.next();
     path.light_place = numbers.next_pair();
+    if (!here.lit.environment.empty())
+        path.sky_place = BounceNumbers(path.key ^ kSkySalt, here.number).next_pair();
 }
 
 // Russian roulette on what the path has come to carry; false if it ends.
@@ -111,6 +118,14 @@ Rgb met_emission(const LitScene& lit, const Path& path, const Ray& ray, const Hi
     if (radiance == Rgb(0) || path.pdf == 0) return path.throughput * radiance;
     const float pdf_light = pdf_area_light(lit, {ray.origin, path.normal}, ray.direction, hit);
     return path.throughput * radiance * (path.pdf / (path.pdf + pdf_light));
+}
+
+Rgb met_environment(const LitScene& lit, const Path& path, const Ray& ray) {
+    if (lit.environment.empty()) return Rgb(0);
+    const Rgb radiance = path.throughput * lit.environment.radiance(ray.direction);
+    if (radiance == Rgb(0) || path.pdf == 0) return radiance;
+    const float pdf_light = lit.environment.pdf({ray.origin, path.normal}, ray.direction);
+    return radiance * (path.pdf / (path.pdf + pdf_light));
 }
 
 Rgb passed_straight(const LitScene& lit, const Hit& hit, Ray& ray) {

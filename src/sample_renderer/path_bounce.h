@@ -18,6 +18,9 @@ MetSurface describe(const LitScene& lit, const Hit& hit);
 /// started may have found it too.
 Rgb met_emission(const LitScene& lit, const Path& path, const Ray& ray, const Hit& hit);
 
+/// The same of the environment, by a ray that met nothing.
+Rgb met_environment(const LitScene& lit, const Path& path, const Ray& ray);
+
 /// What a smooth pane lets straight on of the ray that met it, whose t_min is set beyond; black at
 /// all else.
 Rgb passed_straight(const LitScene& lit, const Hit& hit, Ray& ray);

@@ -54,9 +54,15 @@ void follow(const LitScene& lit, PathWave& wave, FirstEmission first, std::span<
         std::size_t alive = 0;
         for (std::size_t i = 0; i < wave.paths.size(); ++i) {
             const Hit& hit = wave.hits[i];
-            if (!hit) continue;
             Path& path = wave.paths[i];
             Ray& ray = wave.rays[i];
+            if (!hit) {
+                if (!path.first)
+                    sums[path.slot] += met_environment(lit, path, ray);
+                else if (first == FirstEmission::counted)
+                    sums[path.slot] += path.throughput * lit.environment.radiance(ray.direction);
+                continue;
+            }
             const MetSurface surface = describe(lit, hit);
             if (surface.material.emissive()) {
                 if (!path.first)

@@ -17,7 +17,8 @@ struct Path {
     std::uint32_t slot = 0;  // which sum it adds to
     std::uint32_t key = 0;   // names its random numbers after the first hit's
     Vec2 light_place = {};   // at the first hit: where on a light,
-    float light_choice = 0;  // and which of each kind of light
+    float light_choice = 0;  // which of each kind of light,
+    Vec2 sky_place = {};     // and where in the environment
     Vec3 normal = Vec3(0);   // LitPlace's, where the ray started; after the first hit
     float roulette_scale = 1;  // of the throughput, for survival: what is small because radiance in
                                // glass is dense, or because of a weight, is worth following
@@ -29,7 +30,8 @@ inline Path make_path(const Sequence& sequence, std::uint32_t sample, std::uint3
     return {.slot = slot,
             .key = sequence.key(sample),
             .light_place = sequence.pair(sample, kFirstLightPlace),
-            .light_choice = sequence.number(sample, kFirstLightChoice)};
+            .light_choice = sequence.number(sample, kFirstLightChoice),
+            .sky_place = sequence.rotated_pair(sample, kFirstLightPlace, kFirstSkyRotation)};
 }
 
 /// Shadow rays on the way, and what each brings to which sum through what is in its way.
@@ -60,7 +62,8 @@ struct PathWave {
     void add(const Ray& ray, const Path& path);
 };
 
-/// What a path takes of the light that the first surface it meets emits.
+/// What a path takes of the light that the first surface it meets emits, or of the environment
+/// where it meets none.
 enum class FirstEmission { skipped, counted };
 
 /// Asked at each surface with diffuse light that a path meets, before the path is lit there: true

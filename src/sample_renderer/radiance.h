@@ -14,8 +14,9 @@ struct RadianceSettings {
 };
 
 /// Mean radiance that arrives along each ray, against its direction [cd/m2 a channel]; `result` has
-/// the length of `rays`. What the surface emits counts; a ray that meets nothing sees black. As a
-/// camera's, the rays pass single-sided faces from behind. The same bits on any number of threads.
+/// the length of `rays`. What the surface emits counts; a ray that meets nothing sees the
+/// environment. As a camera's, the rays pass single-sided faces from behind. The same bits on any
+/// number of threads.
 void radiance(const LitScene& lit, std::span<const Ray> rays, const RadianceSettings& settings,
               std::span<Rgb> result);
 

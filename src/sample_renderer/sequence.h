@@ -11,17 +11,29 @@ namespace chiaro {
 
 /// Uses of the Halton dimensions along a path, lowest bases to what matters most. The first
 /// direction is found by the cosine at a point, by the place in a pixel from the eye.
-enum PathDimension : int { kFirstDirection = 0, kFirstLightPlace = 2, kFirstLightChoice = 4 };
+/// The place in the environment is that on a light, rotated differently.
+enum PathDimension : int {
+    kFirstDirection = 0,
+    kFirstLightPlace = 2,
+    kFirstLightChoice = 4,
+    kFirstSkyRotation = 5
+};
 
-/// Uses of the dimensions in direct light; the two direction numbers have a sequence of their own.
-enum DirectDimension : int { kLightPlace = 0, kLightChoice = 2, kLightDirection = 3 };
+/// Uses of the dimensions in direct light; the two direction numbers have a sequence of their own,
+/// and the place in the environment is that on a light, rotated differently.
+enum DirectDimension : int {
+    kLightPlace = 0,
+    kLightChoice = 2,
+    kLightDirection = 3,
+    kSkyRotation = 5
+};
 
 /// The rotated Halton sequence of one seed, in kReplicates independent copies.
 class Sequence {
 public:
     explicit Sequence(std::uint32_t seed) : seed_(seed), table_(table()) {
         for (std::uint32_t r = 0; r < kReplicates; ++r)
-            for (std::uint32_t d = 0; d < kDimensions; ++d)
+            for (std::uint32_t d = 0; d < kRotations; ++d)
                 rotations_[r][d] = to_unit_float(hash32(seed, 0x5eed'0000U + 16 * r + d));
     }
 
@@ -31,6 +43,14 @@ public:
     }
     Vec2 pair(std::uint32_t sample, int dimension) const {
         return {number(sample, dimension), number(sample, dimension + 1)};
+    }
+
+    /// The pair with the rotations of `rotation` and the next (up to 6) instead: as well spread,
+    /// for another light. Of lights that add up, each is integrated as well as by itself.
+    Vec2 rotated_pair(std::uint32_t sample, int dimension, int rotation) const {
+        const std::uint32_t replicate = sample % kReplicates, index = sample / kReplicates;
+        return {rotated(replicate, dimension, rotation, index),
+                rotated(replicate, dimension + 1, rotation + 1, index)};
     }
 
     /// Point `index` of the two lowest bases, with the rotations of `dimension` and the next: a
@@ -46,6 +66,7 @@ public:
 
 private:
     static constexpr int kDimensions = 5;
+    static constexpr int kRotations = 7;
 
     float rotated(std::uint32_t replicate, int base, int dimension, std::uint32_t index) const {
         const float point = index < kTableSize ? table_[base][index] : halton(base, index);
@@ -58,7 +79,7 @@ private:
     static const Table& table();
     std::uint32_t seed_;
     const Table& table_;
-    std::array<std::array<float, kDimensions>, kReplicates> rotations_;
+    std::array<std::array<float, kRotations>, kReplicates> rotations_;
 };
 
 /// The numbers at one bounce of the path that `key` names, in order.

@@ -19,6 +19,19 @@ bool is_dark(const Environment& environment) {
     return std::ranges::all_of(environment.map.pixels, black);
 }
 
+Rgb mean_radiance(const Environment& environment) {
+    if (!environment.has_map()) return environment.sky;
+    const Image& map = environment.map;
+    glm::dvec3 sum(0);
+    double size = 0;
+    for (int y = 0; y < map.height; ++y) {
+        const double sine = std::sin(double(kPi) * (y + 0.5) / map.height);
+        for (int x = 0; x < map.width; ++x) sum += sine * glm::dvec3(map.at(x, y));
+        size += sine * map.width;
+    }
+    return Rgb(sum / size);
+}
+
 EnvironmentFrame::EnvironmentFrame(Vec3 vertical) : up(glm::normalize(vertical)) {
     middle = made_level({1, 0, 0}, up);
     if (!(glm::length(middle) > 1e-3f)) middle = made_level({0, 1, 0}, up);

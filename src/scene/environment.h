@@ -17,6 +17,9 @@ struct Environment {
 /// True if no light comes from it.
 bool is_dark(const Environment& environment);
 
+/// The mean over all directions [cd/m2 a channel].
+Rgb mean_radiance(const Environment& environment);
+
 /// How a map lies in the world. Its top row is at the vertical. Its middle is along +x, made level,
 /// or along +y where +x is the vertical; from there to the right in the picture is to the right of
 /// someone who stands upright and looks there. So it is in Blender (+x, where z is up) and in
