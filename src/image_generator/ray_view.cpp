@@ -75,7 +75,10 @@ SeenRow refine_row(const RayCaster& rays, const View& view, int y, const SeenRow
         const Neighbours near = centre.textured ? on_same_primitive(centres, x, y) : Neighbours{};
         const bool cornered = centre.textured && !(near.beside && near.below);
         const bool more = cornered || outlined[x] || thin[x];
-        if (more) see_pixel(rays, view, x, y, touches_light(centres, x, y) ? 8 : 4, aov, row);
+        if (more)
+            see_pixel(rays, view, x, y, touches_light(centres, x, y) ? 8 : 4, aov, row);
+        else if (centre.object == ObjectId::none && aov == Aov::radiance)
+            row.background[x] = mean_environment(rays.scene(), view, x, y, footprint);
         for (; piece != coarse.pieces.end() && piece->x == static_cast<std::uint32_t>(x); ++piece) {
             if (more) continue;
             row.pieces.push_back(*piece);

@@ -25,25 +25,46 @@ Vec2 place_in_pixel(int i, int side) {
 constexpr float kLeastPart = 1.0f / 512;  // of a ray: what is behind it is not missed
 
 // Follows rays until they are stopped, and tells `see(looking, hit, part)` of each surface
-// that shows, ray by ray and front to back; `part` is what of the pixel it takes.
-template <typename See>
-void look(const RayCaster& rays, std::span<const Looking> looking, const See& see) {
+// that shows, ray by ray and front to back; `part` is what of the pixel it takes. What is left of
+// a ray in the end sees the environment: `see_beyond(looking, part)`.
+template <typename See, typename SeeBeyond>
+void look(const RayCaster& rays, std::span<const Looking> looking, const See& see,
+          const SeeBeyond& see_beyond) {
     const Scene& scene = rays.scene();
     std::vector<Ray> cast;
     for (const Looking& l : looking) cast.push_back(l.ray);
     std::vector<LayerHit> layers;
     rays.intersect_layers(cast, layers);
 
-    float left = 1;  // of the ray
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        const auto& [ray, hit] = layers[i];
-        if (i == 0 || layers[i - 1].ray != ray) left = 1;
-        if (left < kLeastPart) continue;
-        const float part = left * opacity(scene, hit.point);
-        see(looking[ray], hit, looking[ray].part * part);
-        left -= part;
+    auto layer = layers.begin();
+    for (std::uint32_t ray = 0; ray < looking.size(); ++ray) {
+        float left = 1;  // of the ray
+        for (; layer != layers.end() && layer->ray == ray; ++layer) {
+            if (left < kLeastPart) continue;
+            const float part = left * opacity(scene, layer->hit.point);
+            see(looking[ray], layer->hit, looking[ray].part * part);
+            left -= part;
+        }
+        if (left >= kLeastPart) see_beyond(looking[ray], looking[ray].part * left);
     }
 }
+
+// The environment as rays that leave the scene see it.
+class Beyond {
+public:
+    Beyond(const Scene& scene, Aov aov)
+        : environment_(scene.environment),
+          frame_(scene.up),
+          seen_(aov == Aov::radiance && !(environment_.sky == Rgb(0) && !environment_.has_map())) {}
+    Rgb seen(const Ray& ray, float part) const {
+        return seen_ ? part * radiance_from(environment_, frame_, ray.direction) : Rgb(0);
+    }
+
+private:
+    const Environment& environment_;
+    EnvironmentFrame frame_;
+    bool seen_;
+};
 
 Rgb seen_reflectance(const Scene& scene, const Hit& hit, Aov aov, float part) {
     if (aov == Aov::irradiance) return Rgb(part);
@@ -105,12 +126,15 @@ SeenRow see_row(const RayCaster& rays, const View& view, int y, Aov aov,
         looking[x] = {view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f),
                       static_cast<std::uint32_t>(x), 1};
 
-    look(rays, looking, [&](const Looking& l, const Hit& hit, float part) {
+    const Beyond beyond(scene, aov);
+    const auto see = [&](const Looking& l, const Hit& hit, float part) {
         row.pieces.push_back({l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)});
         row.background[l.x] += seen_emission(scene, hit, aov, part);
         CentreHit& centre = centres[l.x];
         if (centre.object == ObjectId::none) centre = centre_hit(scene, l.ray, hit);
-    });
+    };
+    look(rays, looking, see,
+         [&](const Looking& l, float part) { row.background[l.x] += beyond.seen(l.ray, part); });
     return row;
 }
 
@@ -152,12 +176,28 @@ void see_pixel(const RayCaster& rays, const View& view, int x, int y, int side, 
     const std::size_t first = row.pieces.size();
     std::vector<float> weights;
     Rgb background(0);
-    look(rays, looking, [&](const Looking& l, const Hit& hit, float part) {
+    const Beyond beyond(scene, aov);
+    const auto see = [&](const Looking& l, const Hit& hit, float part) {
         add_piece(row.pieces, weights, first,
                   {l.x, hit.point, hit.front, seen_reflectance(scene, hit, aov, part)}, part);
         background += seen_emission(scene, hit, aov, part);
-    });
+    };
+    look(rays, looking, see,
+         [&](const Looking& l, float part) { background += beyond.seen(l.ray, part); });
     row.background[x] = background;
+}
+
+Rgb mean_environment(const Scene& scene, const View& view, int x, int y, float footprint) {
+    const Beyond beyond(scene, Aov::radiance);
+    const auto map_pixels_a_radian = static_cast<float>(scene.environment.map.width) / (2 * kPi);
+    const int side =
+        static_cast<int>(std::clamp(std::ceil(footprint * map_pixels_a_radian), 1.0f, 8.0f));
+    Rgb sum(0);
+    for (int i = 0; i < side * side; ++i) {
+        const Vec2 at = place_in_pixel(i, side);
+        sum += beyond.seen(view.ray(static_cast<float>(x) + at.x, static_cast<float>(y) + at.y), 1);
+    }
+    return sum / static_cast<float>(side * side);
 }
 
 Rgb mean_base_color(const Scene& scene, const SurfacePoint& here, const SurfacePoint& beside,

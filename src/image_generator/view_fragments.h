@@ -49,6 +49,10 @@ std::vector<char> more_within(const RayCaster& rays, const View& view, int y,
 void see_pixel(const RayCaster& rays, const View& view, int x, int y, int side, Aov aov,
                SeenRow& row);
 
+/// Mean radiance over pixel (x, y) of the environment, which fills it, by as many looks as its map
+/// has pixels there, up to 64; `footprint` is a pixel's size in radians.
+Rgb mean_environment(const Scene& scene, const View& view, int x, int y, float footprint);
+
 /// Mean base colour over a pixel that shows one primitive alone, from the surface points that its
 /// own centre and those of two neighbours show, to the side and below or above.
 Rgb mean_base_color(const Scene& scene, const SurfacePoint& here, const SurfacePoint& beside,
