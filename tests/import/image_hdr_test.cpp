@@ -215,6 +215,12 @@ TEST(LoadEnvironment, RefusesWhatIsNoLightAndNamesThePixel) {
     EXPECT_NE(fault_of([&] { load_environment(folder.path() / "none.hdr"); }), "");
 }
 
+TEST(LoadEnvironment, TakesAPngWithWhiteOfOne) {
+    const TempFolder folder;
+    folder.write_picture("p.png");
+    EXPECT_EQ(load_environment(folder.path() / "p.png").map.at(0, 0), Rgb(1, 0, 0));
+}
+
 // Photographs of rooms, as they are shared.
 TEST(LoadEnvironment, ReadsRealMaps) {
     const std::filesystem::path folder = std::filesystem::path(CHIARO_SCENES) / "hdr";

@@ -1,5 +1,6 @@
 // Light from all around. Bounds are at least 6 standard errors as they were measured over seeds,
 // unless there is no chance in a number.
+#include "sample_renderer/caustic_renderer.h"
 #include "sample_renderer/gather_renderer.h"
 #include "sample_renderer/meter.h"
 
@@ -150,7 +151,7 @@ TEST(Environment, WhiteThingsVanishInAnEvenSky) {
     }
 }
 
-// The same of irradiance, direct and indirect light together pi, by path and by gather, whose bias
+// The same of irradiance, direct and indirect light together pi, by all renderers; gather's bias
 // is 0.2 %; channels do not mix. Standard errors are 1 % a place and 0.1 % in the mean.
 TEST(Environment, IrradianceOnWhiteThingsIsPi) {
     const Meter meter(white_things(Gloss(), {.sky = {1, 2, 0}}));
@@ -168,7 +169,9 @@ TEST(Environment, IrradianceOnWhiteThingsIsPi) {
     }
     PathRenderer path(meter.scene, meter.caster, meter.area_lights, nullptr, 2);
     GatherRenderer gather(meter.scene, meter.caster, meter.area_lights, nullptr, 2);
-    for (SampleRenderer* renderer : std::initializer_list<SampleRenderer*>{&path, &gather}) {
+    CausticRenderer caustic(meter.scene, meter.caster, meter.area_lights, nullptr, 2);
+    for (SampleRenderer* renderer :
+         std::initializer_list<SampleRenderer*>{&path, &gather, &caustic}) {
         std::vector<ShadeResult> results(requests.size());
         renderer->shade(requests, results);
         renderer->shade(requests, results);  // gather has filled its cells
@@ -181,6 +184,30 @@ TEST(Environment, IrradianceOnWhiteThingsIsPi) {
         EXPECT_NEAR(mean.r / kPi, 1, 0.008);
         EXPECT_NEAR(mean.g / kPi, 2, 0.016);
         EXPECT_EQ(mean.b, 0);
+    }
+}
+
+// Under an even sky a white body of glass or metal on a white floor changes nothing for the floor's
+// irradiance: it would be pi without it, and what it takes of the sky it gives back. The renderer
+// that aims rays at it must not count the sky in it twice.
+TEST(Environment, CausticsOfTheSkyAreCountedOnce) {
+    for (const Gloss& material : {gloss(1, 0.2f), gloss(0, 0, 1)}) {
+        Scene scene = under({.sky = Rgb(1)});
+        add_quad(scene, {-50, -1.5f, 50}, {100, 0, 0}, {0, 0, -100}, add_material(scene, Rgb(1)));
+        const MaterialId focusing = add_material(scene, Rgb(1));
+        scene.materials[index_of(focusing)].gloss = material;
+        add_box(scene, Vec3(-1), Vec3(1), focusing);
+        const Meter meter(std::move(scene));
+        CausticRenderer caustic(meter.scene, meter.caster, meter.area_lights, nullptr, 2);
+        PathRenderer path(meter.scene, meter.caster, meter.area_lights, nullptr, 2);
+        ShadeRequest request = {
+            .light = Light::total, .seed = 4, .samples = 1 << 12, .indirect_samples = 1 << 15};
+        request.place = MeterPlace{{1.2f, -1.49f, 0.3f}, {0, 1, 0}};
+        for (SampleRenderer* renderer : std::initializer_list<SampleRenderer*>{&path, &caustic}) {
+            ShadeResult result;
+            renderer->shade({&request, 1}, {&result, 1});
+            EXPECT_NEAR(result.mean.g / kPi, 1, 0.03);
+        }
     }
 }
 

@@ -58,7 +58,7 @@ TEST(EnvironmentLight, SamplesOfAMapFollowTheirDensity) {
     expect_density_of(blotched(1, 1), "one pixel", 32);
     expect_density_of(blotched(16, 1), "one row", 32);
     expect_density_of(blotched(1, 40), "one column", 32);
-    expect_density_of(one_pixel(64, 32, 63, 9, Rgb(1e5f), Rgb(1)), "a bright pixel", 128);
+    expect_density_of(one_pixel(64, 32, 63, 9, Rgb(1e5f), Rgb(1)), "a bright pixel", 64);
 }
 
 // Blocks of several cells, not all of one size: more than 2048 x 1024 pixels.
