@@ -1,5 +1,6 @@
 #include "apps/make_renderer.h"
 
+#include "sample_renderer/bidirectional_renderer.h"
 #include "sample_renderer/caustic_renderer.h"
 #include "sample_renderer/gather_renderer.h"
 #include "sample_renderer/path_renderer.h"
@@ -14,6 +15,9 @@ std::unique_ptr<SampleRenderer> make_renderer(RendererName name, const Scene& sc
             break;
         case RendererName::gather:
             return std::make_unique<GatherRenderer>(scene, rays, area_lights, open_sides, threads);
+        case RendererName::bidirectional:
+            return std::make_unique<BidirectionalRenderer>(scene, rays, area_lights, open_sides,
+                                                           threads);
         case RendererName::caustic:
             return std::make_unique<CausticRenderer>(scene, rays, area_lights, open_sides, threads);
     }

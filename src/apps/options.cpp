@@ -79,10 +79,9 @@ RendererName parse_renderer(const std::string& text, RendererName otherwise) {
     if (text == "path") return RendererName::path;
     if (text == "gather") return RendererName::gather;
     if (text == "caustic") return RendererName::caustic;
-    if (text == "bidirectional")
-        throw Error("--renderer", text + " comes in a later version", "use path");
+    if (text == "bidirectional") return RendererName::bidirectional;
     throw Error("--renderer", "there is no renderer '" + text + "'",
-                "choose gather, path or caustic");
+                "choose gather, path, bidirectional or caustic");
 }
 
 void check_only_path(const Options& options) {
@@ -148,7 +147,8 @@ void add_view_options(CLI::App& command, Options& o) {
 void add_render_options(CLI::App& command, Options& o) {
     command.add_option(
         "--renderer", o.renderer,
-        "sample renderer: gather, path or caustic (default: gather; with --scheme paper, path)");
+        "sample renderer: gather, path, bidirectional or caustic (default: gather; with --scheme "
+        "paper, path)");
     command.add_option("--threads", o.threads, "threads to use (default: all)");
     command.add_option("--seed", o.seed, "of all random numbers")
         ->capture_default_str()

@@ -52,7 +52,7 @@ glm::dvec3 parse_vector(const std::string& option, const std::string& text);
 Rgb parse_sky(const std::string& text);
 Scheme parse_scheme(const std::string& text);
 Aov parse_aov(const std::string& text);
-enum class RendererName { path, gather, caustic };
+enum class RendererName { path, gather, bidirectional, caustic };
 /// `otherwise` where nothing was asked for.
 RendererName parse_renderer(const std::string& text, RendererName otherwise);
 /// For commands that only have `path`.

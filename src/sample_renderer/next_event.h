@@ -87,6 +87,20 @@ inline Ray ray_to_lamp(Vec3 from, Vec3 lamp) {
     return {from, lamp - from, 0, 1 - 1e-4f};
 }
 
+/// A point of an area light that may shine on a receiver, and the way there.
+struct AreaLightView {
+    AreaLightSample sample;
+    Vec3 to_light;       // unit
+    float squared;       // of the distance; > 0
+    float cosine;        // receiving_cosine() of the direction; > 0
+    float light_cosine;  // > 0
+    Rgb radiance;        // toward the receiver; not black
+    Ray shadow_ray;
+};
+/// `choice` and `spot` as AreaLights::sample() has them. Checks: there are area lights.
+std::optional<AreaLightView> view_area_light(const LitScene& lit, const Receiver& receiver,
+                                             float choice, Vec2 spot);
+
 /// A point of the area lights; nothing if it cannot shine on the receiver. `choice` and `spot` as
 /// AreaLights::sample() has them. Checks: there are area lights.
 std::optional<LightConnection> connect_area_light(const LitScene& lit, const Receiver& receiver,
@@ -100,6 +114,11 @@ std::optional<LightConnection> connect_punctual(const LitScene& lit, const Recei
 /// `choice` in [0, 1).
 std::optional<LightConnection> connect_lamp(const LitScene& lit, const Receiver& receiver,
                                             float choice);
+
+/// One of the suns, by the irradiance that each would bring; nothing if none can. `choice` in
+/// [0, 1). And the chance that it has of a sun, which is an index in Scene::lights.
+std::optional<LightChoice> choose_sun(const LitScene& lit, const Receiver& receiver, float choice);
+float sun_chance(const LitScene& lit, const Receiver& receiver, std::uint32_t sun);
 
 /// One of the suns for all, by the irradiance that each would bring; nothing if none can. `choice`
 /// in [0, 1).

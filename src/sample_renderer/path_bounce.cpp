@@ -73,14 +73,6 @@ bool survives(float number, Path& path) {
     return true;
 }
 
-// Lets the ray go on through a pane that it met. It remains one ray: its start and its density are
-// what light samples compare with.
-void pass_pane(const RayCaster& caster, const Hit& hit, Ray& ray) {
-    const float cosine = std::max(std::abs(glm::dot(hit.normal, ray.direction)), 0.05f);
-    const Vec3 position = ray.origin + hit.t * ray.direction;
-    ray.t_min = hit.t + 2 * caster.offset(position, hit.point.object) / cosine;
-}
-
 // Turns the path along what was sampled.
 void go_on(const Bounce& here, const Bsdf& bsdf, const BsdfSample& sample, Path& path, Ray& ray) {
     const bool passes = sample.lobe == Lobe::transmission;
@@ -98,6 +90,12 @@ void go_on(const Bounce& here, const Bsdf& bsdf, const BsdfSample& sample, Path&
 }
 
 }  // namespace
+
+void pass_pane(const RayCaster& caster, const Hit& hit, Ray& ray) {
+    const float cosine = std::max(std::abs(glm::dot(hit.normal, ray.direction)), 0.05f);
+    const Vec3 position = ray.origin + hit.t * ray.direction;
+    ray.t_min = hit.t + 2 * caster.offset(position, hit.point.object) / cosine;
+}
 
 MetSurface describe(const LitScene& lit, const Hit& hit) {
     const Scene& scene = lit.scene;

@@ -42,13 +42,20 @@ PunctualLights::PunctualLights(const Scene& scene) {
     clusters_ = LightClusters(bounds);
 }
 
+float PunctualLights::chance(float by_place) const {
+    return kEvenPart / static_cast<float>(lamps_.size()) + (1 - kEvenPart) * by_place;
+}
+
+float PunctualLights::lamp_chance(const LitPlace& place, std::uint32_t light) const {
+    if (lamps_.size() == 1) return 1;
+    const auto found = std::lower_bound(lamps_.begin(), lamps_.end(), light);
+    return chance(clusters_.pdf(place, static_cast<std::uint32_t>(found - lamps_.begin())));
+}
+
 std::optional<LightChoice> PunctualLights::sample_lamp(const LitPlace& place, float u) const {
     if (lamps_.empty()) return std::nullopt;
     if (lamps_.size() == 1) return LightChoice{lamps_[0], 1};
     const auto count = static_cast<float>(lamps_.size());
-    const auto chance = [&](float by_place) {
-        return kEvenPart / count + (1 - kEvenPart) * by_place;
-    };
     if (u < kEvenPart) {
         const auto last = static_cast<std::uint32_t>(lamps_.size() - 1);
         const auto lamp = std::min(static_cast<std::uint32_t>(u / kEvenPart * count), last);

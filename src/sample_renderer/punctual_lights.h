@@ -36,10 +36,15 @@ public:
     /// was found that shines there, which is worth nothing. `u` in [0, 1).
     std::optional<LightChoice> sample_lamp(const LitPlace& place, float u) const;
 
+    /// The chance that sample_lamp() has of this lamp, an index in Scene::lights.
+    float lamp_chance(const LitPlace& place, std::uint32_t light) const;
+
     /// Part of the choices that are even.
     static constexpr float kEvenPart = 0.1f;
 
 private:
+    float chance(float by_place) const;
+
     std::vector<std::uint32_t> lamps_, suns_;
     LightClusters clusters_;  // of the lamps, in their order
 };

@@ -16,7 +16,8 @@ enum PathDimension : int {
     kFirstDirection = 0,
     kFirstLightPlace = 2,
     kFirstLightChoice = 4,
-    kFirstSkyRotation = 5
+    kFirstSkyRotation = 5,
+    kEmission = 5  // the direction in which a walk leaves a light
 };
 
 /// Uses of the dimensions in direct light; the two direction numbers have a sequence of their own,
@@ -65,7 +66,7 @@ public:
     std::uint32_t key(std::uint32_t sample) const { return hash32(hash32(seed_, 0x9a7bU), sample); }
 
 private:
-    static constexpr int kDimensions = 5;
+    static constexpr int kDimensions = 7;
     static constexpr int kRotations = 7;
 
     float rotated(std::uint32_t replicate, int base, int dimension, std::uint32_t index) const {

@@ -48,4 +48,17 @@ inline float pdf_cosine_hemisphere(float cosine) {
     return std::max(0.0f, cosine) * (1 / kPi);
 }
 
+/// Unit direction about +z, even over the cone whose rim has the cosine `cosine_of_rim`; -1: the
+/// whole sphere.
+inline Vec3 square_to_cone(Vec2 u, float cosine_of_rim) {
+    const float z = 1 - u.x * (1 - cosine_of_rim);
+    const float radius = std::sqrt(std::max(0.0f, 1 - z * z));
+    const float azimuth = 2 * kPi * u.y;
+    return {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
+}
+/// Density of the above over solid angle, inside of the cone [1 / steradian].
+inline float pdf_cone(float cosine_of_rim) {
+    return 1 / (2 * kPi * (1 - cosine_of_rim));
+}
+
 }  // namespace chiaro

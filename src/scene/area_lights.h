@@ -35,6 +35,14 @@ public:
         return surfaces_.pdf(place, object, primitive);
     }
 
+    /// Where walks from the lights start: chosen by power.
+    AreaLightSample sample_by_power(float choice, Vec2 spot) const {
+        return surfaces_.sample_by_weight(choice, spot);
+    }
+    float pdf_by_power(ObjectId object, std::uint32_t primitive) const {
+        return surfaces_.pdf_by_weight(object, primitive);
+    }
+
 private:
     // Of a light whose radiance does not vary, and that nothing shines through.
     struct PlainRadiance {

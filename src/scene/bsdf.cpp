@@ -91,13 +91,12 @@ float density(const Bsdf& b, const LobeChances& chances, Vec3 from, Vec3 to) {
     return sum;
 }
 
-// The surface from its other side.
+}  // namespace
+
 Bsdf turned(Bsdf b) {
     if (!b.thin) b.eta = 1 / b.eta;
     return b;
 }
-
-}  // namespace
 
 Rgb diffuse_albedo(const Bsdf& b, float cosine_to_eye) {
     if (is_lambertian(b)) return b.diffuse;

@@ -61,6 +61,9 @@ inline Bsdf specular_only(Bsdf b) {
     return b;
 }
 
+/// The surface as it is met from its other side.
+Bsdf turned(Bsdf bsdf);
+
 /// What multiplies irradiance / pi: the base's albedo times what the facets leave over. It depends
 /// on the cosine to the eye alone, so that a cached irradiance gives the diffuse radiance exactly;
 /// in exchange it is not reciprocal.

@@ -18,6 +18,11 @@ float spot_falloff(const PunctualLight& light, float cos_angle) {
 
 }  // namespace
 
+Rgb intensity_toward(const PunctualLight& light, Vec3 w) {
+    if (light.kind != LightKind::spot) return light.intensity;
+    return light.intensity * spot_falloff(light, glm::dot(w, light.direction));
+}
+
 std::optional<PunctualArrival> arrival(const PunctualLight& light, Vec3 point) {
     if (light.kind == LightKind::directional)
         return PunctualArrival{-light.direction, kInfinity, light.intensity};

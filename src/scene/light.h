@@ -21,6 +21,10 @@ struct PunctualLight {
     float range = kInfinity;          // kept from the file; light is not cut off at it
 };
 
+/// Intensity that a point or spot sends along unit direction `w` [cd a channel]; black outside a
+/// spot's cone.
+Rgb intensity_toward(const PunctualLight& light, Vec3 w);
+
 /// Light that a punctual source would send to a point, were nothing in between.
 struct PunctualArrival {
     Vec3 to_light;   // unit

@@ -29,8 +29,12 @@ SampledSurfaces::SampledSurfaces(const Scene& scene, std::span<const SurfaceWeig
 
     // Sums in double, however many there are. Clusters get shares, which no unit can make too
     // large.
-    for (const LightBounds& b : bounds)
-        total_weight_ += (b.two_sided ? 2 : 1) * double(b.intensity);
+    std::vector<double> all;
+    for (const LightBounds& b : bounds) {
+        all.push_back((b.two_sided ? 2 : 1) * double(b.intensity));
+        total_weight_ += all.back();
+    }
+    by_weight_ = WeightedChoice(all);
     for (LightBounds& b : bounds)
         b.intensity = static_cast<float>(b.intensity / (double(kPi) * total_weight_));
     clusters_ = LightClusters(bounds);
@@ -109,12 +113,23 @@ std::optional<SurfaceSample> SampledSurfaces::sample(const LitPlace& place, floa
         chosen = *found;
     }
     result.emplace();
-    const Surface& surface = surfaces_[chosen.light];
-    result->point = surface.where;
-    result->surface = chosen.light;
-    result->pdf_area = chosen.probability * surface.inverse_area;
-    place_on(surface, spot, *result);
+    place_on(chosen.light, chosen.probability, spot, *result);
     return result;
+}
+
+SurfaceSample SampledSurfaces::sample_by_weight(float choice, Vec2 spot) const {
+    const WeightedChoice::Choice chosen = by_weight_.choose(choice);
+    SurfaceSample result;
+    place_on(chosen.index, chosen.probability, spot, result);
+    return result;
+}
+
+inline void SampledSurfaces::place_on(std::uint32_t surface, float probability, Vec2 spot,
+                                      SurfaceSample& result) const {
+    result.point = surfaces_[surface].where;
+    result.surface = surface;
+    result.pdf_area = probability * surfaces_[surface].inverse_area;
+    place_on(surfaces_[surface], spot, result);
 }
 
 // Evenly over the surface's area.
@@ -147,11 +162,21 @@ inline void SampledSurfaces::place_on(const Surface& surface, Vec2 spot, Surface
         result.position = c[2] + (1 - uv.x) * (c[3] - c[2]) + (1 - uv.y) * (c[1] - c[2]);
 }
 
-float SampledSurfaces::pdf(const LitPlace& place, ObjectId object, std::uint32_t primitive) const {
+std::optional<std::uint32_t> SampledSurfaces::surface_at(ObjectId object,
+                                                         std::uint32_t primitive) const {
     const std::vector<std::uint32_t>& surfaces = surface_of_[index_of(object)];
-    if (surfaces.empty() || surfaces[primitive] == kNone) return 0;
-    const std::uint32_t surface = surfaces[primitive];
-    return clusters_.pdf(place, surface) * surfaces_[surface].inverse_area;
+    if (surfaces.empty() || surfaces[primitive] == kNone) return std::nullopt;
+    return surfaces[primitive];
+}
+
+float SampledSurfaces::pdf(const LitPlace& place, ObjectId object, std::uint32_t primitive) const {
+    const auto surface = surface_at(object, primitive);
+    return surface ? clusters_.pdf(place, *surface) * surfaces_[*surface].inverse_area : 0.0f;
+}
+
+float SampledSurfaces::pdf_by_weight(ObjectId object, std::uint32_t primitive) const {
+    const auto surface = surface_at(object, primitive);
+    return surface ? by_weight_.probability(*surface) * surfaces_[*surface].inverse_area : 0.0f;
 }
 
 }  // namespace chiaro

@@ -1,6 +1,7 @@
 // Surfaces that points are drawn from, to be asked what light comes from there.
 #pragma once
 
+#include "base/weighted_choice.h"
 #include "scene/light_clusters.h"
 #include "scene/surface.h"
 
@@ -50,6 +51,10 @@ public:
     /// surfaces, or light never comes from it to `place`.
     float pdf(const LitPlace& place, ObjectId object, std::uint32_t primitive) const;
 
+    /// As sample() and pdf(), whatever the place: chosen by weight x area x sides.
+    SurfaceSample sample_by_weight(float choice, Vec2 spot) const;
+    float pdf_by_weight(ObjectId object, std::uint32_t primitive) const;
+
 private:
     struct Surface {
         SurfacePoint where;
@@ -63,6 +68,8 @@ private:
 
     static Surface make_surface(const Scene& scene, const SurfacePoint& where, float area);
     static LightBounds bounds_of(const Surface& surface, bool two_sided, float intensity);
+    std::optional<std::uint32_t> surface_at(ObjectId object, std::uint32_t primitive) const;
+    void place_on(std::uint32_t surface, float probability, Vec2 spot, SurfaceSample& result) const;
     static void place_on(const Surface& surface, Vec2 spot, SurfaceSample& result);
     std::vector<LightBounds> add_object(const Scene& scene, ObjectId object,
                                         std::span<const SurfaceWeight> weights);
@@ -70,6 +77,7 @@ private:
     double total_weight_ = 0;
     std::vector<Surface> surfaces_;
     LightClusters clusters_;
+    WeightedChoice by_weight_;
     std::vector<std::vector<std::uint32_t>>
         surface_of_;  // by object, by primitive; empty: none of the object's
 };

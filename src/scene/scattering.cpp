@@ -28,6 +28,20 @@ auto sum_over_locals(const Scattering& s, Vec3 w, const Function& f) {
     return sum;
 }
 
+// A delta as eyes see it, for a walk that comes from the light: eyes lie where the shading normal
+// has them, and see nothing where the two normals disagree about the side.
+std::optional<BsdfSample> smooth_importance(const Scattering& s, BsdfSample sample) {
+    const Vec3 local = sample.direction;
+    sample.direction = s.frame.to_world(local);
+    if (s.flat) return sample;
+    const float arriving = glm::dot(s.geometric_normal, s.from_world);
+    const float leaving = glm::dot(s.geometric_normal, sample.direction);
+    const bool from_above = glm::dot(s.frame.n, s.from_world) > 0 && arriving > 0;
+    if (!from_above || (leaving > 0) != (local.z > 0)) return std::nullopt;
+    sample.weight *= std::abs(leaving * s.from.z / (arriving * local.z));
+    return sample;
+}
+
 }  // namespace
 
 Scattering make_scattering(const Bsdf& bsdf, Vec3 geometric_normal, Vec3 shading_normal,
@@ -35,7 +49,13 @@ Scattering make_scattering(const Bsdf& bsdf, Vec3 geometric_normal, Vec3 shading
     const Frame frame(shading_normal);
     Vec3 local = frame.to_local(from);
     if (local.z < kJustAbove) local = glm::normalize(Vec3(local.x, local.y, kJustAbove));
-    return {bsdf, frame, geometric_normal, local, geometric_normal == shading_normal};
+    return {bsdf, frame, geometric_normal, local, from, geometric_normal == shading_normal};
+}
+
+Scattering reversed(const Scattering& s, Vec3 to) {
+    if (glm::dot(s.geometric_normal, to) > 0)
+        return make_scattering(s.bsdf, s.geometric_normal, s.frame.n, to);
+    return make_scattering(turned(s.bsdf), -s.geometric_normal, -s.frame.n, to);
 }
 
 Rgb scattered(const Scattering& s, Vec3 to_light) {
@@ -44,19 +64,33 @@ Rgb scattered(const Scattering& s, Vec3 to_light) {
     });
 }
 
+Rgb scattered_importance(const Scattering& s, Vec3 to_eye) {
+    // Radiance counts light by the shading normal's cosine; flux arrives and leaves by the real
+    // plane's.
+    const float arriving = std::abs(glm::dot(s.geometric_normal, s.from_world));
+    const float leaving = std::abs(glm::dot(s.geometric_normal, to_eye));
+    if (!(arriving > 0 && leaving > 0)) return Rgb(0);
+    return scattered(reversed(s, to_eye), s.from_world) * (leaving / arriving);
+}
+
 float pdf_scattering(const Scattering& s, Vec3 to) {
     return sum_over_locals(s, to, [&](Vec3 local) { return pdf_bsdf(s.bsdf, s.from, local); });
 }
 
-std::optional<BsdfSample> sample_scattering(const Scattering& s, float u_lobe, Vec2 u) {
-    auto sample = sample_bsdf(s.bsdf, s.from, u_lobe, u);
+std::optional<BsdfSample> sample_scattering(const Scattering& s, float u_lobe, Vec2 u,
+                                            Transport transport) {
+    const bool to_light = transport == Transport::radiance;
+    auto sample = sample_bsdf(s.bsdf, s.from, u_lobe, u, transport);
     if (!sample) return std::nullopt;
+    if (sample->delta() && !to_light) return smooth_importance(s, *sample);
     sample->direction = to_world(s, sample->direction);
     if (s.flat || sample->delta()) return sample;
     // Two directions of the frame may lead here.
     sample->pdf = pdf_scattering(s, sample->direction);
     if (!(sample->pdf > 0)) return std::nullopt;
-    sample->weight = scattered(s, sample->direction) / sample->pdf;
+    const Rgb value =
+        to_light ? scattered(s, sample->direction) : scattered_importance(s, sample->direction);
+    sample->weight = value / sample->pdf;
     return sample;
 }
 

@@ -17,6 +17,7 @@ struct Scattering {
     Frame frame;            // about the shading normal, on the side of `from`
     Vec3 geometric_normal;  // of the real plane; unit, on the side of `from`
     Vec3 from;              // the known direction in the frame; z > 0
+    Vec3 from_world;        // and as it was given
     bool flat;              // the normals are one
 };
 
@@ -28,12 +29,22 @@ Scattering make_scattering(const Bsdf& bsdf, Vec3 geometric_normal, Vec3 shading
 /// [1 / steradian]: value times cosine, without what is smooth.
 Rgb scattered(const Scattering& s, Vec3 to_light);
 
+/// Of a walk that carries importance from a light: flux toward `to_eye` and its solid angle over
+/// flux that came along `from` [1 / steradian]. It is scattered() with the roles that the light
+/// has, so that walks from both ends agree, also about shading normals: Veach's correction (1997,
+/// 5.3.2).
+Rgb scattered_importance(const Scattering& s, Vec3 to_eye);
+
+/// The same surface for a walk that comes along `to`, on whichever side that is.
+Scattering reversed(const Scattering& s, Vec3 to);
+
 /// Density over solid angle of sample_scattering()'s directions, deltas and ends left out.
 float pdf_scattering(const Scattering& s, Vec3 to);
 
-/// As sample_bsdf() with Transport::radiance; the direction in world space. Lobe::transmission is
-/// below the real plane, all others above.
-std::optional<BsdfSample> sample_scattering(const Scattering& s, float u_lobe, Vec2 u);
+/// As sample_bsdf(); the direction in world space. Lobe::transmission is below the real plane, all
+/// others above. Weights are scattered() over the density, or scattered_importance().
+std::optional<BsdfSample> sample_scattering(const Scattering& s, float u_lobe, Vec2 u,
+                                            Transport transport = Transport::radiance);
 
 /// What is smooth of a surface, exactly: where light comes from that `from` sees in it, and by what
 /// its radiance is multiplied. Black where there is no such light.
