@@ -12,7 +12,7 @@ namespace {
 constexpr float kCellsAcross = 60;
 
 // A ray must be this many times as long as the cell in which it ends.
-constexpr float kLengthOverSize = 2;
+constexpr float kLengthOverSize = 4;
 
 // How far jitter tilts a normal: cells that face apart blend over about this part of a right angle.
 constexpr float kTilt = 0.2f;
@@ -20,7 +20,8 @@ constexpr float kTilt = 0.2f;
 // Cells are numbered from the grid's corner, which lies this many of them outside of the scene, so
 // that jitter never leads below zero.
 constexpr int kMargin = 2;
-constexpr int kBitsAnAxis = 18;
+constexpr int kBitsAnAxis = 15;
+constexpr int kObjectBits = 13;
 static_assert((1 << kBitsAnAxis) > (static_cast<int>(kCellsAcross) + 2 * kMargin)
                                        << CellGrid::kLevels);
 
@@ -42,8 +43,8 @@ CellGrid make_cell_grid(const Box& scene) {
     return {scene.low - kMargin * size, size};
 }
 
-std::optional<CellKey> cell_at(const CellGrid& grid, Vec3 position, Vec3 normal, float distance,
-                               Vec3 jitter) {
+std::optional<CellKey> cell_at(const CellGrid& grid, ObjectId object, Vec3 position, Vec3 normal,
+                               float distance, Vec3 jitter) {
     if (!(distance >= grid.shortest())) return std::nullopt;
     const int halvings = std::ilogb(kLengthOverSize * grid.size / distance) + 1;
     const int level = std::clamp(halvings, 0, CellGrid::kLevels - 1);
@@ -53,7 +54,8 @@ std::optional<CellKey> cell_at(const CellGrid& grid, Vec3 position, Vec3 normal,
     const Vec3 along = shift - glm::dot(shift, normal) * normal;
     const Vec3 place = (position - grid.origin) / size + along;
     constexpr float kLast = (1 << kBitsAnAxis) - 1;
-    std::uint64_t key = facing(normal + kTilt * Vec3(shift.y, shift.z, shift.x));
+    std::uint64_t key = index_of(object) & ((1 << kObjectBits) - 1);
+    key = key << 3 | facing(normal + kTilt * Vec3(shift.y, shift.z, shift.x));
     key = key << 3 | static_cast<std::uint64_t>(level);
     for (int axis = 0; axis < 3; ++axis)
         key = key << kBitsAnAxis |
@@ -71,28 +73,28 @@ void CellSamples::add(Rgb irradiance) {
 std::size_t IrradianceCells::slot_of(CellKey key) const {
     for (std::size_t i = hash64(static_cast<std::uint64_t>(key));; ++i) {
         i &= slots_.size() - 1;
-        if (slots_[i] == CellId::none || cell(slots_[i]).key == key) return i;
+        if (slots_[i].id == CellId::none || slots_[i].key == key) return i;
     }
 }
 
 CellId IrradianceCells::find(CellKey key) const {
-    return slots_.empty() ? CellId::none : slots_[slot_of(key)];
+    return slots_.empty() ? CellId::none : slots_[slot_of(key)].id;
 }
 
 CellId IrradianceCells::find_or_add(CellKey key) {
     if (2 * (cells_.size() + 1) > slots_.size()) grow();
-    CellId& slot = slots_[slot_of(key)];
-    if (slot != CellId::none) return slot;
-    slot = static_cast<CellId>(cells_.size());
+    Slot& slot = slots_[slot_of(key)];
+    if (slot.id != CellId::none) return slot.id;
+    slot = {key, static_cast<CellId>(cells_.size())};
     cells_.push_back({});
     cells_.back().key = key;
-    return slot;
+    return slot.id;
 }
 
 void IrradianceCells::grow() {
-    slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), CellId::none);
+    slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), Slot{});
     for (std::size_t i = 0; i < cells_.size(); ++i)
-        slots_[slot_of(cells_[i].key)] = static_cast<CellId>(i);
+        slots_[slot_of(cells_[i].key)] = {cells_[i].key, static_cast<CellId>(i)};
 }
 
 void IrradianceCells::store(CellId id, const CellSamples& added, std::uint32_t version) {

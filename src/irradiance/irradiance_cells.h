@@ -33,12 +33,13 @@ struct CellGrid {
 /// A grid of cells of 1/60 of the diagonal of a scene's bounds (world space).
 CellGrid make_cell_grid(const Box& scene);
 
-/// The cell in which a ray of length `distance` ends that meets a surface at `position`, whose
+/// The cell in which a ray of length `distance` ends that meets `object` at `position`, whose
 /// `normal` (unit, world) is on the side that the ray came from; nothing if the ray is too short.
 /// `jitter`, in [0, 1)^3, moves the look-up by up to half a cell along the surface and tilts the
 /// normal a little, so that the mean of many look-ups interpolates between cells.
-std::optional<CellKey> cell_at(const CellGrid& grid, Vec3 position, Vec3 normal, float distance,
-                               Vec3 jitter);
+/// Objects have cells of their own: a curtain's light is not that of the wall behind it.
+std::optional<CellKey> cell_at(const CellGrid& grid, ObjectId object, Vec3 position, Vec3 normal,
+                               float distance, Vec3 jitter);
 
 /// What is known of a cell.
 struct IrradianceCell {
@@ -46,7 +47,7 @@ struct IrradianceCell {
     Rgb mean = Rgb(0);     // irradiance, from lights and from elsewhere [lux a channel]
     float deviations = 0;  // sum of squared deviations of samples' luminance [lux^2]
     std::uint32_t samples = 0;
-    std::uint32_t hits = 0;     // rays that ended here
+    float hits = 0;             // rays that ended here
     std::uint32_t version = 0;  // of the scene at its oldest sample
 
     /// Of the mean's luminance [lux^2]. Needs two samples.
@@ -79,18 +80,23 @@ public:
     CellId find(CellKey key) const;
     /// The cell of a key, made empty if there is none.
     CellId find_or_add(CellKey key);
-    void count_hits(CellId id, std::uint32_t hits) { cells_[index_of(id)].hits += hits; }
+    void count_hits(CellId id, float hits) { cells_[index_of(id)].hits += hits; }
     /// Merges samples taken under `version` of the scene; older ones make way (design, section 5).
     /// Checks: samples > 0, finite.
     void store(CellId id, const CellSamples& samples, std::uint32_t version);
 
 private:
+    // The key once more, so that a look-up reads no cell but its own.
+    struct Slot {
+        CellKey key{};
+        CellId id = CellId::none;
+    };
     std::size_t slot_of(CellKey key) const;
     void grow();
 
     CellGrid grid_;
     std::vector<IrradianceCell> cells_;
-    std::vector<CellId> slots_;  // open addressing, a power of two, at most half full
+    std::vector<Slot> slots_;  // open addressing, a power of two, at most half full
 };
 
 }  // namespace chiaro

@@ -1,6 +1,9 @@
 #include "sample_renderer/caustic_renderer.h"
 
 #include "sample_renderer/mirror_light.h"
+#include "scene/bsdf.h"
+
+#include <algorithm>
 
 namespace chiaro {
 namespace {
@@ -9,6 +12,10 @@ namespace {
 // leaves no noise; of more, each sample tries some.
 constexpr std::size_t kMostExactImages = 1024;
 constexpr std::size_t kImagesASample = 16;
+
+// What reflects or transmits less makes no light that stands out.
+constexpr float kLeastFocus = 0.15f;
+constexpr float kRoughestFocus = 0.6f;  // perceptual roughness
 
 Rgb exact_image_light(const LitScene& lit, const Receiver& receiver, PathWave& scratch) {
     scratch.shadows.clear();
@@ -32,6 +39,34 @@ void add_image_samples(const LitScene& lit, const Receiver& receiver, std::uint3
     scratch.shadows.settle(lit.caster, sums);
 }
 
+// What a material focuses, by one of its places.
+float focusing_part(const Scene& scene, const SurfacePoint& place) {
+    const Bsdf b = bsdf_at(scene, place, true);
+    if (b.alpha > kRoughestFocus * kRoughestFocus) return 0;
+    const float reflected = has_facets(b) ? (1 - b.glass) * max_component(b.f0) : 0.0f;
+    const float part = std::max(reflected, b.thin ? 0.0f : b.glass);
+    return part < kLeastFocus ? 0.0f : part;
+}
+
+// The surfaces of a scene that focus light: metal and bodies of glass, by how much they reflect or
+// transmit. Panes are none.
+SampledSurfaces focusing_surfaces(const Scene& scene) {
+    std::vector<SurfaceWeight> weights(scene.materials.size());
+    std::vector<char> known(scene.materials.size(), 0);
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+        if (scene.objects[o].mesh == MeshId::none) continue;
+        const std::vector<Primitive>& primitives = scene.mesh_of(scene.objects[o]).primitives;
+        for (std::uint32_t p = 0; p < primitives.size(); ++p) {
+            const std::size_t material = index_of(primitives[p].material);
+            if (known[material]) continue;
+            known[material] = 1;
+            weights[material].weight =
+                focusing_part(scene, {static_cast<ObjectId>(o), p, 0.25f, 0.25f});
+        }
+    }
+    return SampledSurfaces(scene, weights);
+}
+
 }  // namespace
 
 CausticRenderer::CausticRenderer(const Scene& scene, const RayCaster& caster,
@@ -52,14 +87,17 @@ SampleCosts CausticRenderer::typical_costs() const {
 void CausticRenderer::shade(std::span<const ShadeRequest> requests,
                             std::span<ShadeResult> results) {
     const bool exact = image_count(lit_) <= kMostExactImages;
+    const Aims all = {focusing_};
+    const Aims* aims = focusing_.empty() ? nullptr : &all;
     shade_requests(
         lit_, open_sides_, threads_, requests, results,
         [&](const Receiver& receiver, const Task& task, std::uint32_t seed, PathWave& scratch) {
             TaskResult result;
             if (exact && task.starts) result.exact = exact_image_light(lit_, receiver, scratch);
             if (!exact) add_image_samples(lit_, receiver, seed, task, scratch, result.sums);
-            result.rays = add_caustic_samples(lit_, focusing_, open_sides_, receiver, seed,
-                                              task.first, task.count, scratch, result.sums);
+            result.rays =
+                add_indirect_samples(lit_, receiver, seed, task.first, task.count, scratch,
+                                     result.sums, {.open_sides = open_sides_, .aims = aims});
             return result;
         });
 }

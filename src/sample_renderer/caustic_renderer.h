@@ -2,7 +2,6 @@
 // section 7 and Figure 6). For rings, mirrors and glasses that focus light on what is near them.
 #pragma once
 
-#include "sample_renderer/caustic_light.h"
 #include "sample_renderer/shade_tasks.h"
 
 namespace chiaro {

@@ -7,14 +7,6 @@ namespace {
 
 constexpr std::uint32_t kLightSamplesPerRay = 8;
 
-// Which of a replicate's every eight samples traces the ray: a random one, so that any range of
-// samples is unbiased, and any range that holds whole eights has exactly its share.
-bool traces_ray(std::uint32_t seed, std::uint32_t replicate, std::uint32_t index) {
-    const std::uint32_t block = index / kLightSamplesPerRay;
-    const std::uint32_t turn = hash32(hash32(seed, 0x7a1eU + replicate), block) >> 16;
-    return index % kLightSamplesPerRay == turn % kLightSamplesPerRay;
-}
-
 bool few(std::span<const std::uint32_t> lights) {
     return lights.size() <= kMostExactLights;
 }
@@ -118,7 +110,7 @@ void add_direct_samples(const LitScene& lit, const Receiver& receiver, std::uint
             add_light_samples(lit, receiver, sequence, i, scratch.shadows);
             const std::uint32_t replicate = i % kReplicates;
             const std::uint32_t index = i / kReplicates;
-            if (traces_ray(seed, replicate, index))
+            if (takes_turn(seed, replicate, index, kLightSamplesPerRay))
                 add_ray(receiver, sequence, replicate, index / kLightSamplesPerRay, scratch);
         }
         settle_rays(lit, receiver, scratch, sums);

@@ -16,23 +16,30 @@ namespace {
 constexpr std::uint32_t kBatchSamples = 16384;
 
 // A cell is filled once this many rays have asked for it: about as many paths as filling it costs.
-constexpr std::uint32_t kAskedBeforeFilled = 8;
+constexpr float kAskedBeforeFilled = 8;
 
 // One unit of filling: this many direct samples and as many traced paths from one place.
 constexpr std::uint32_t kSamplesAUnit = 4;
 constexpr std::uint32_t kFirstUnits = 2;
 constexpr std::uint32_t kMostUnits = 512;
+
+// Paths that fill cells end in others of at least so many units.
+constexpr std::uint32_t kKnownWell = 8;
 // Another unit for every so many rays that end in the cell: filling then costs about half of what
 // the rays cost.
-constexpr std::uint32_t kRaysAUnit = 32;
+constexpr float kRaysAUnit = 16;
 
-// One in so many rays that end in a cell is noted, and stands for all of them.
-constexpr std::uint32_t kNoted = 8;
+// One in so many rays that end in a cell is noted, and stands for all of them. (By chance alone:
+// were cells that seem bright filled more, those that seem dark by bad luck would stay so.)
+constexpr float kRaysANote = 8;
+
+// One in so many samples also aims at what is bright.
+constexpr std::uint32_t kSamplesAnAimedRay = 4;
 
 // A ray that asked for a cell, and where it met the surface.
 struct Asking {
     CellKey key;
-    std::uint32_t rays;  // that it stands for
+    float rays;  // that it stands for
     Receiver place;
     CellId cell = CellId::none;  // once it is known
 };
@@ -48,13 +55,17 @@ public:
         shares_.assign(slots, 0.0f);
     }
     void add(CellId id, float share) {
-        for (std::size_t i = index_of(id) * 0x9e3779b1u >> 7;; ++i) {
-            i &= ids_.size() - 1;
+        const std::size_t home = index_of(id) * 0x9e3779b1u >> 7;
+        std::size_t slot = home & (ids_.size() - 1);
+        for (std::size_t step = 0; step < kMostSteps; ++step) {
+            const std::size_t i = (home + step) & (ids_.size() - 1);
             if (ids_[i] != id && ids_[i] != CellId::none) continue;
-            ids_[i] = id;
-            shares_[i] += share;
-            return;
+            slot = i;
+            break;
         }
+        // Where it is crowded, cells are taken together: the variance comes out a little larger.
+        if (ids_[slot] == CellId::none) ids_[slot] = id;
+        shares_[slot] += share;
     }
     // Variance of the sum of shares times the cells' luminance.
     float variance(const IrradianceCells& cells) const {
@@ -66,7 +77,8 @@ public:
     }
 
 private:
-    std::vector<CellId> ids_;  // open addressing, at most half full
+    static constexpr std::size_t kMostSteps = 16;
+    std::vector<CellId> ids_;  // open addressing
     std::vector<float> shares_;
 };
 
@@ -75,8 +87,16 @@ struct Scratch {
     CellShares shares;
 };
 
+// The cell in which a path ends that met a surface, if there may be one.
+std::optional<CellKey> cell_met(const IrradianceCells& cells, const Hit& hit, const Receiver& met,
+                                BounceNumbers& numbers) {
+    const Vec3 jitter(numbers.next(), numbers.next(), numbers.next());
+    return cell_at(cells.grid(), hit.point.object, met.position, met.geometric_normal, hit.t,
+                   jitter);
+}
+
 // The indirect part of a request by rays that end in cells; appends to `asking`.
-TaskResult gather(const LitScene& lit, const OpenSides* open_sides, const IrradianceCells& cells,
+TaskResult gather(const LitScene& lit, IndirectOptions options, const IrradianceCells& cells,
                   const Receiver& receiver, const Task& task, const ShadeRequest& request,
                   Scratch& scratch, std::vector<Asking>& asking) {
     scratch.shares.reset(task.count);
@@ -85,23 +105,22 @@ TaskResult gather(const LitScene& lit, const OpenSides* open_sides, const Irradi
     const EndsAt ends_at = [&](const Path& path, std::uint32_t bounce, const Hit& hit,
                                const Receiver& met, Rgb reflected) {
         BounceNumbers numbers(hash32(path.key, 0xce11U), bounce);
-        const Vec3 jitter(numbers.next(), numbers.next(), numbers.next());
-        const auto key = cell_at(cells.grid(), met.position, met.geometric_normal, hit.t, jitter);
+        const auto key = cell_met(cells, hit, met, numbers);
         if (!key) return false;
         const CellId id = cells.find(*key);
         if (id == CellId::none || cells.cell(id).samples == 0) {
             asking.push_back({*key, 1, met});
             return false;
         }
-        if (numbers.next() * kNoted < 1) asking.push_back({*key, kNoted, met});
         const Rgb weight = reflected * (1 / kPi);
+        if (numbers.next() * kRaysANote < 1) asking.push_back({*key, kRaysANote, met});
         ended[path.slot] += weight * cells.cell(id).mean;
         scratch.shares.add(id, luminance(weight));
         return true;
     };
-    result.rays =
-        add_indirect_samples(lit, open_sides, receiver, hash32(request.seed, kIndirectSalt),
-                             task.first, task.count, scratch.wave, result.sums, &ends_at);
+    options.ends_at = &ends_at;
+    result.rays = add_indirect_samples(lit, receiver, hash32(request.seed, kIndirectSalt),
+                                       task.first, task.count, scratch.wave, result.sums, options);
     for (std::uint32_t r = 0; r < kReplicates; ++r) result.sums[r] += kPi * ended[r];
     result.shared_variance = kPi * kPi * scratch.shares.variance(cells);
     return result;
@@ -114,9 +133,9 @@ struct Filling {
     std::size_t first, last;
 };
 
-std::uint32_t units_wanted(std::uint32_t hits) {
+std::uint32_t units_wanted(float hits) {
     if (hits < kAskedBeforeFilled) return 0;
-    return std::clamp(hits / kRaysAUnit, kFirstUnits, kMostUnits);
+    return std::clamp(static_cast<std::uint32_t>(hits / kRaysAUnit), kFirstUnits, kMostUnits);
 }
 
 // Sorts what was asked for by cell and tells which cells have earned more samples. Doubling them at
@@ -144,30 +163,43 @@ std::vector<Filling> plan(IrradianceCells& cells, std::vector<Asking>& asking) {
 }
 
 // Irradiance at one place by samples [first, first + kSamplesAUnit) of everything [lux a channel].
-Rgb sample_irradiance(const LitScene& lit, const Receiver& place, std::uint32_t seed,
-                      std::uint32_t first, PathWave& scratch) {
-    std::array<Rgb, kReplicates> sums = {};
+// Paths end in cells that are known well.
+Rgb sample_irradiance(const LitScene& lit, const IrradianceCells& cells, const Aims* aims,
+                      const Receiver& place, std::uint32_t seed, std::uint32_t first,
+                      PathWave& scratch) {
+    std::array<Rgb, kReplicates> sums = {}, ended = {};
     const Rgb exact = exact_direct_light(lit, place, scratch);
     if (!direct_light_is_exact(lit))
         add_direct_samples(lit, place, hash32(seed, kDirectSalt), first, kSamplesAUnit, scratch,
                            sums);
-    add_indirect_samples(lit, nullptr, place, hash32(seed, kIndirectSalt), first, kSamplesAUnit,
-                         scratch, sums);
+    const EndsAt ends_at = [&](const Path& path, std::uint32_t bounce, const Hit& hit,
+                               const Receiver& met, Rgb reflected) {
+        BounceNumbers numbers(hash32(path.key, 0xce11U), bounce);
+        const auto key = cell_met(cells, hit, met, numbers);
+        if (!key) return false;
+        const CellId id = cells.find(*key);
+        if (id == CellId::none || cells.cell(id).samples < kKnownWell) return false;
+        ended[path.slot] += reflected * cells.cell(id).mean;
+        return true;
+    };
+    add_indirect_samples(lit, place, hash32(seed, kIndirectSalt), first, kSamplesAUnit, scratch,
+                         sums, {.ends_at = &ends_at, .aims = aims});
     Rgb sum(0);
-    for (const Rgb& s : sums) sum += s;
+    for (std::uint32_t r = 0; r < kReplicates; ++r) sum += sums[r] + ended[r];
     return exact + sum * (1.0f / kSamplesAUnit);
 }
 
-CellSamples fill(const LitScene& lit, const IrradianceCell& cell, const Filling& filling,
-                 std::span<const Asking> asking, PathWave& scratch) {
+CellSamples fill(const LitScene& lit, const IrradianceCells& cells, const Aims* aims,
+                 const Filling& filling, std::span<const Asking> asking, PathWave& scratch) {
+    const IrradianceCell& cell = cells.cell(filling.cell);
     const std::uint32_t seed = hash64(static_cast<std::uint64_t>(cell.key));
     const std::size_t places = filling.last - filling.first;
     CellSamples samples;
     for (std::uint32_t u = 0; u < filling.units; ++u) {
         const Receiver& place = asking[filling.first + (places * u / filling.units) % places].place;
         // The cell's sequence goes on from place to place, so that it is spread well over all.
-        samples.add(
-            sample_irradiance(lit, place, seed, kSamplesAUnit * (cell.samples + u), scratch));
+        samples.add(sample_irradiance(lit, cells, aims, place, seed,
+                                      kSamplesAUnit * (cell.samples + u), scratch));
     }
     return samples;
 }
@@ -180,6 +212,7 @@ GatherRenderer::GatherRenderer(const Scene& scene, const RayCaster& caster,
     : lit_(make_lit_scene(scene, caster, area_lights)),
       open_sides_(open_sides),
       threads_(threads),
+      bright_(bright_surfaces(lit_, threads)),
       cells_(make_cell_grid(bounds(scene))) {}
 
 SampleCosts GatherRenderer::typical_costs() const {
@@ -190,6 +223,9 @@ void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<Sha
     check(requests.size() == results.size(), "shade: one result a request");
     const std::vector<Task> tasks = split_into_tasks(requests);
     std::vector<TaskResult> parts(tasks.size());
+    const Aims aims = {bright_, kSamplesAnAimedRay};
+    const IndirectOptions options = {.open_sides = open_sides_,
+                                     .aims = bright_.empty() ? nullptr : &aims};
 
     for (std::size_t begin = 0; begin < tasks.size();) {
         // A batch of tasks against the cells as they are.
@@ -205,7 +241,7 @@ void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<Sha
             parts[begin + i] =
                 task.direct
                     ? run_direct(lit_, open_sides_, receiver, task, request, scratch.wave)
-                    : gather(lit_, open_sides_, cells_, receiver, task, request, scratch, asked[i]);
+                    : gather(lit_, options, cells_, receiver, task, request, scratch, asked[i]);
         });
 
         // What it asked for, in the order of tasks.
@@ -215,7 +251,7 @@ void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<Sha
         std::vector<CellSamples> filled(fillings.size());
         parallel_for(threads_, fillings.size(), [&](std::size_t i) {
             thread_local PathWave scratch;
-            filled[i] = fill(lit_, cells_.cell(fillings[i].cell), fillings[i], asking, scratch);
+            filled[i] = fill(lit_, cells_, options.aims, fillings[i], asking, scratch);
         });
         for (std::size_t i = 0; i < fillings.size(); ++i)
             cells_.store(fillings[i].cell, filled[i], version_);

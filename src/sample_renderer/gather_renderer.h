@@ -4,7 +4,7 @@
 #pragma once
 
 #include "irradiance/irradiance_cells.h"
-#include "sample_renderer/next_event.h"
+#include "sample_renderer/bright_surfaces.h"
 #include "sample_renderer/sample_renderer.h"
 #include "scene/open_sides.h"
 
@@ -34,6 +34,7 @@ private:
     LitScene lit_;
     const OpenSides* open_sides_;
     int threads_;
+    SampledSurfaces bright_;
     IrradianceCells cells_;
     std::uint32_t version_ = 1;
 };

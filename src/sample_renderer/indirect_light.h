@@ -1,7 +1,7 @@
 // Irradiance after at least one reflection at one point, by paths traced to their ends.
 #pragma once
 
-#include "sample_renderer/path_wave.h"
+#include "sample_renderer/aimed_rays.h"
 #include "scene/open_sides.h"
 
 namespace chiaro {
@@ -15,20 +15,23 @@ struct RayCount {
     bool mostly_inside() const { return shot > 0 && 4 * inside >= 3 * shot; }
 };
 
-/// Of rays that met something, those that met the inside of a solid. `open_sides` may be null.
+/// Of rays that met something, those that met the inside of a solid; none where `open_sides` is
+/// null.
 RayCount count_inside(const OpenSides* open_sides, std::span<const Hit> hits);
 
-/// Puts one cosine-distributed ray a sample into the emptied wave. Cosine over density is pi, which
-/// the throughput leaves out.
-void start_paths(const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
-                 std::uint32_t count, PathWave& wave);
+/// What add_indirect_samples() may be asked to do besides.
+struct IndirectOptions {
+    const OpenSides* open_sides = nullptr;  // counts rays that met the inside of a solid
+    const EndsAt* ends_at = nullptr;        // what paths end at early is not added (path_wave.h)
+    const Aims* aims = nullptr;             // surfaces that some rays are aimed at, too
+};
 
 /// Adds the estimates of samples [first, first + count) to the sums of their replicates [lux a
-/// channel]. `open_sides` may be null. What paths end at early is not added here (path_wave.h).
-RayCount add_indirect_samples(const LitScene& lit, const OpenSides* open_sides,
-                              const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
-                              std::uint32_t count, PathWave& scratch,
-                              std::span<Rgb, kReplicates> sums, const EndsAt* ends_at = nullptr);
+/// channel]: a path each whose first ray is distributed by the cosine.
+RayCount add_indirect_samples(const LitScene& lit, const Receiver& receiver, std::uint32_t seed,
+                              std::uint32_t first, std::uint32_t count, PathWave& scratch,
+                              std::span<Rgb, kReplicates> sums,
+                              const IndirectOptions& options = {});
 
 /// Shoots `count` cosine-distributed rays only to see what they meet.
 RayCount probe(const LitScene& lit, const OpenSides& open_sides, const Receiver& receiver,

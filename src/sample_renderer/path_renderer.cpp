@@ -17,8 +17,8 @@ void PathRenderer::shade(std::span<const ShadeRequest> requests, std::span<Shade
         lit_, open_sides_, threads_, requests, results,
         [&](const Receiver& receiver, const Task& task, std::uint32_t seed, PathWave& scratch) {
             TaskResult result;
-            result.rays = add_indirect_samples(lit_, open_sides_, receiver, seed, task.first,
-                                               task.count, scratch, result.sums);
+            result.rays = add_indirect_samples(lit_, receiver, seed, task.first, task.count,
+                                               scratch, result.sums, {.open_sides = open_sides_});
             return result;
         });
 }

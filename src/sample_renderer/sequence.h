@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/halton.h"
+#include "base/random.h"
 #include "sample_renderer/sample_renderer.h"
 
 #include <array>
@@ -28,6 +29,15 @@ enum DirectDimension : int {
     kLightDirection = 3,
     kSkyRotation = 5
 };
+
+/// Whether sample `index` of a replicate takes a turn that one in `every` takes: a random one of
+/// each block, so that any range of samples is unbiased, and any that holds whole blocks has
+/// exactly its share.
+inline bool takes_turn(std::uint32_t seed, std::uint32_t replicate, std::uint32_t index,
+                       std::uint32_t every) {
+    const std::uint32_t turn = hash32(hash32(seed, 0x7a1eU + replicate), index / every) >> 16;
+    return index % every == turn % every;
+}
 
 /// The rotated Halton sequence of one seed, in kReplicates independent copies.
 class Sequence {

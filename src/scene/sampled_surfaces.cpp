@@ -18,12 +18,17 @@ Vec2 square_to_triangle(Vec2 place) {
 
 }  // namespace
 
-SampledSurfaces::SampledSurfaces(const Scene& scene, std::span<const SurfaceWeight> weights)
+SampledSurfaces::SampledSurfaces(const Scene& scene, std::span<const SurfaceWeight> of_material)
+    : SampledSurfaces(scene, [&](ObjectId object, std::uint32_t primitive) {
+          return of_material[index_of(material_of(scene, {object, primitive}))];
+      }) {}
+
+SampledSurfaces::SampledSurfaces(const Scene& scene, const WeightOf& weight_of)
     : surface_of_(scene.objects.size()) {
     std::vector<LightBounds> bounds;
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
         if (scene.objects[o].mesh == MeshId::none) continue;
-        const auto more = add_object(scene, static_cast<ObjectId>(o), weights);
+        const auto more = add_object(scene, static_cast<ObjectId>(o), weight_of);
         bounds.insert(bounds.end(), more.begin(), more.end());
     }
 
@@ -41,11 +46,11 @@ SampledSurfaces::SampledSurfaces(const Scene& scene, std::span<const SurfaceWeig
 }
 
 std::vector<LightBounds> SampledSurfaces::add_object(const Scene& scene, ObjectId object,
-                                                     std::span<const SurfaceWeight> weights) {
+                                                     const WeightOf& weight_of) {
     std::vector<LightBounds> bounds;
     const auto& primitives = scene.mesh_of(scene.objects[index_of(object)]).primitives;
     for (std::uint32_t p = 0; p < primitives.size(); ++p) {
-        const auto [weight, two_sided] = weights[index_of(primitives[p].material)];
+        const auto [weight, two_sided] = weight_of(object, p);
         if (!(weight > 0)) continue;
         const float area = primitive_area(scene, object, p);
         if (!(area > 0)) continue;

@@ -5,6 +5,7 @@
 #include "scene/light_clusters.h"
 #include "scene/surface.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,7 +21,7 @@ struct SurfaceSample {
     float pdf_area;         // over area, the choice included [1 / scene units squared]
 };
 
-/// What the surfaces of a material count for, an area; 0: they are left out.
+/// What a surface counts for, an area; 0: it is left out.
 struct SurfaceWeight {
     float weight = 0;
     bool two_sided = true;  // light comes from their backs too
@@ -33,8 +34,10 @@ struct SurfaceWeight {
 /// build anew when places or weights change.
 class SampledSurfaces {
 public:
-    /// `weights`: one a material.
-    SampledSurfaces(const Scene& scene, std::span<const SurfaceWeight> weights);
+    /// Of all materials, by index.
+    SampledSurfaces(const Scene& scene, std::span<const SurfaceWeight> of_material);
+    using WeightOf = std::function<SurfaceWeight(ObjectId object, std::uint32_t primitive)>;
+    SampledSurfaces(const Scene& scene, const WeightOf& weight_of);
 
     bool empty() const { return surfaces_.empty(); }
     std::size_t size() const { return surfaces_.size(); }
@@ -72,7 +75,7 @@ private:
     void place_on(std::uint32_t surface, float probability, Vec2 spot, SurfaceSample& result) const;
     static void place_on(const Surface& surface, Vec2 spot, SurfaceSample& result);
     std::vector<LightBounds> add_object(const Scene& scene, ObjectId object,
-                                        std::span<const SurfaceWeight> weights);
+                                        const WeightOf& weight_of);
 
     double total_weight_ = 0;
     std::vector<Surface> surfaces_;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr Vec3 kMiddle = Vec3(0.5f);
 const Vec3 kUp(0, 0, 1);
+constexpr auto kObject = static_cast<ObjectId>(7);
 
 // A scene whose diagonal is 60: the largest cells are 1 across.
 CellGrid unit_grid() {
@@ -21,22 +22,23 @@ CellGrid unit_grid() {
     return make_cell_grid({Vec3(0), Vec3(side)});
 }
 
-// Cells are 1/60 of the diagonal and halve with the ray's length: never more than half of it.
+// Cells are 1/60 of the diagonal and halve with the ray's length: never more than a
+// quarter of it.
 TEST(CellAt, CellsAreSmallFromWhereTheyAreSeen) {
     const CellGrid grid = unit_grid();
     EXPECT_NEAR(grid.size, 1, 1e-5f);
-    EXPECT_NEAR(grid.shortest(), 2.0f / 128, 1e-6f);
-    for (const float distance : {0.02f, 0.1f, 0.7f, 1.9f, 2.1f, 100.0f}) {
+    EXPECT_NEAR(grid.shortest(), 4.0f / 128, 1e-6f);
+    for (const float distance : {0.04f, 0.1f, 0.7f, 3.9f, 4.1f, 100.0f}) {
         std::set<CellKey> along;  // cells met along a line of length 8
         for (int i = 0; i < 80'000; ++i)
-            along.insert(*cell_at(grid, {1 + 1e-4f * static_cast<float>(i), 5.3f, 5.2f}, kUp,
-                                  distance, kMiddle));
+            along.insert(*cell_at(grid, kObject, {1 + 1e-4f * static_cast<float>(i), 5.3f, 5.2f},
+                                  kUp, distance, kMiddle));
         const double size = 8.0 / static_cast<double>(along.size() - 1);
-        EXPECT_LE(size, std::min(1.0f, distance / 2) * 1.15) << distance;
-        EXPECT_GE(size, std::min(1.0f, distance / 2) / 2.3) << distance;
+        EXPECT_LE(size, std::min(1.0f, distance / 4) * 1.15) << distance;
+        EXPECT_GE(size, std::min(1.0f, distance / 4) / 2.3) << distance;
     }
-    EXPECT_FALSE(cell_at(grid, Vec3(5), kUp, 0.9f * grid.shortest(), kMiddle).has_value());
-    EXPECT_FALSE(cell_at(grid, Vec3(5), kUp, std::nanf(""), kMiddle).has_value());
+    EXPECT_FALSE(cell_at(grid, kObject, Vec3(5), kUp, 0.9f * grid.shortest(), kMiddle).has_value());
+    EXPECT_FALSE(cell_at(grid, kObject, Vec3(5), kUp, std::nanf(""), kMiddle).has_value());
 }
 
 // The six directions that a surface may face are kept apart, so that no light goes through a wall.
@@ -52,15 +54,25 @@ TEST(CellAt, SidesOfAWallAreApart) {
                 const Vec3 jitter(rng.uniform(), rng.uniform(), rng.uniform());
                 const Vec3 along = Vec3(0.5f) - glm::abs(normal) * 0.5f;
                 const Vec3 at = glm::floor((Vec3(10) - grid.origin)) + grid.origin + 0.5f;
-                keys.insert(*cell_at(grid, at, normal, 100, glm::mix(kMiddle, jitter, along)));
+                keys.insert(
+                    *cell_at(grid, kObject, at, normal, 100, glm::mix(kMiddle, jitter, along)));
             }
         }
     // Jitter may lead into neighbours, of which there are 9 on each side.
     EXPECT_GE(keys.size(), 6u);
     EXPECT_LE(keys.size(), 6u * 9);
     std::set<std::uint64_t> facings;
-    for (const CellKey key : keys) facings.insert(static_cast<std::uint64_t>(key) >> 57);
+    for (const CellKey key : keys)
+        facings.insert(static_cast<std::uint64_t>(key) / (1ULL << 48) % 8);
     EXPECT_EQ(facings.size(), 6u);
+}
+
+// A curtain and the wall behind it share no cell.
+TEST(CellAt, ObjectsAreApart) {
+    const CellGrid grid = unit_grid();
+    const auto other = static_cast<ObjectId>(8);
+    EXPECT_NE(*cell_at(grid, kObject, Vec3(5), kUp, 100, kMiddle),
+              *cell_at(grid, other, Vec3(5), kUp, 100, kMiddle));
 }
 
 // Jitter moves along the surface, not off it: a flat floor is one layer of cells.
@@ -72,7 +84,8 @@ TEST(CellAt, JitterStaysOnTheSurface) {
     for (int i = 0; i < 10'000; ++i) {
         const Vec3 at(30 * rng.uniform(), 30 * rng.uniform(), height);
         const Vec3 jitter(rng.uniform(), rng.uniform(), rng.uniform());
-        layers.insert(static_cast<std::uint64_t>(*cell_at(grid, at, kUp, 100, jitter)) & 0x3ffff);
+        layers.insert(static_cast<std::uint64_t>(*cell_at(grid, kObject, at, kUp, 100, jitter)) &
+                      0x7fff);
     }
     EXPECT_EQ(layers.size(), 1u);
 }
@@ -85,7 +98,8 @@ TEST(CellAt, JitterBlendsNeighbours) {
     Rng rng(4);
     std::map<CellKey, int> counts;
     for (int i = 0; i < 1000; ++i)
-        ++counts[*cell_at(grid, {border, 5.2f, 5.2f}, kUp, 100, {rng.uniform(), 0.5f, 0.5f})];
+        ++counts[*cell_at(grid, kObject, {border, 5.2f, 5.2f}, kUp, 100,
+                          {rng.uniform(), 0.5f, 0.5f})];
     ASSERT_EQ(counts.size(), 2u);
     EXPECT_NEAR(counts.begin()->second, 500, 96);
 }

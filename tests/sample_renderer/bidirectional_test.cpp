@@ -18,10 +18,11 @@ Estimate estimate(SampleRenderer& renderer, const MeterPlace& place, std::uint32
     constexpr std::uint32_t kSeeds = 64;
     std::vector<ShadeRequest> requests;
     for (std::uint32_t seed = 0; seed < kSeeds; ++seed)
-        requests.push_back({.place = place,
-                            .light = Light::indirect,
-                            .seed = hash32(seed + (getenv("SALT") ? 1000 * atoi(getenv("SALT")) : 0)),
-                            .samples = (getenv("MORE") ? atoi(getenv("MORE")) : 1) * samples / kSeeds});
+        requests.push_back(
+            {.place = place,
+             .light = Light::indirect,
+             .seed = hash32(seed + (getenv("SALT") ? 1000 * atoi(getenv("SALT")) : 0)),
+             .samples = (getenv("MORE") ? atoi(getenv("MORE")) : 1) * samples / kSeeds});
     std::vector<ShadeResult> results(kSeeds);
     renderer.shade(requests, results);
     Estimate e;
@@ -46,7 +47,9 @@ void expect_agreement(Scene scene, std::span<const MeterPlace> places, std::uint
         const Estimate a = estimate(path, place, samples);
         const Estimate b = estimate(joined, place, samples / 4);
         const double error = std::sqrt(a.variance + b.variance);
-        std::printf("%-22s %9.5f %9.5f  z %5.2f  rel %.2f%% (path %.2f%%)\n", what, a.mean, b.mean, (b.mean - a.mean) / error, 100 * error / a.mean, 100 * std::sqrt(a.variance)/a.mean);
+        std::printf("%-22s %9.5f %9.5f  z %5.2f  rel %.2f%% (path %.2f%%)\n", what, a.mean, b.mean,
+                    (b.mean - a.mean) / error, 100 * error / a.mean,
+                    100 * std::sqrt(a.variance) / a.mean);
         EXPECT_NEAR(b.mean, a.mean, 6 * error) << what << " " << place.position.x;
     }
 }
@@ -62,27 +65,51 @@ Scene room(MaterialId (*walls)(Scene&), MaterialId (*block)(Scene&)) {
     add_box(scene, {-1, -0.8f, 0.3f}, {-0.2f, 0.6f, 1.1f}, block(scene));
     return scene;
 }
-MaterialId grey(Scene& scene) { return add_material(scene, {0.7f, 0.5f, 0.3f}); }
-MaterialId brushed(Scene& scene) { return add_glossy(scene, Rgb(0.8f, 0.7f, 0.6f), metal(0.5f)); }
-MaterialId shiny(Scene& scene) { return add_glossy(scene, Rgb(0.5f), plastic(0.3f)); }
-MaterialId lacquer(Scene& scene) { return add_glossy(scene, Rgb(0.5f), plastic(0)); }
-MaterialId mirror(Scene& scene) { return add_glossy(scene, Rgb(0.9f), metal(0)); }
-MaterialId clear_glass(Scene& scene) { return add_glossy(scene, Rgb(1), glass(0, false)); }
-MaterialId ground_glass(Scene& scene) { return add_glossy(scene, Rgb(0.9f), glass(0.4f, false)); }
-MaterialId clear_pane(Scene& scene) { return add_glossy(scene, {0.9f, 0.6f, 0.6f}, glass(0, true)); }
-MaterialId ground_pane(Scene& scene) { return add_glossy(scene, Rgb(0.9f), glass(0.4f, true)); }
+MaterialId grey(Scene& scene) {
+    return add_material(scene, {0.7f, 0.5f, 0.3f});
+}
+MaterialId brushed(Scene& scene) {
+    return add_glossy(scene, Rgb(0.8f, 0.7f, 0.6f), metal(0.5f));
+}
+MaterialId shiny(Scene& scene) {
+    return add_glossy(scene, Rgb(0.5f), plastic(0.3f));
+}
+MaterialId lacquer(Scene& scene) {
+    return add_glossy(scene, Rgb(0.5f), plastic(0));
+}
+MaterialId mirror(Scene& scene) {
+    return add_glossy(scene, Rgb(0.9f), metal(0));
+}
+MaterialId clear_glass(Scene& scene) {
+    return add_glossy(scene, Rgb(1), glass(0, false));
+}
+MaterialId ground_glass(Scene& scene) {
+    return add_glossy(scene, Rgb(0.9f), glass(0.4f, false));
+}
+MaterialId clear_pane(Scene& scene) {
+    return add_glossy(scene, {0.9f, 0.6f, 0.6f}, glass(0, true));
+}
+MaterialId ground_pane(Scene& scene) {
+    return add_glossy(scene, Rgb(0.9f), glass(0.4f, true));
+}
 
 void add_lamp(Scene& scene) {
-    add_quad(scene, {-0.6f, -0.5f, 2.9f}, {0, 1, 0}, {1.2f, 0, 0}, add_material(scene, Rgb(0.3f), Rgb(10)));
+    add_quad(scene, {-0.6f, -0.5f, 2.9f}, {0, 1, 0}, {1.2f, 0, 0},
+             add_material(scene, Rgb(0.3f), Rgb(10)));
 }
 
 TEST(Bidirectional, AgreesWithPathsAtAreaLights) {
     const std::tuple<const char*, MaterialId (*)(Scene&), MaterialId (*)(Scene&)> all[] = {
-        {"diffuse", grey, grey},           {"brushed", grey, brushed},
-        {"brushed room", brushed, brushed}, {"plastic room", shiny, shiny},
-        {"lacquer", lacquer, lacquer},      {"mirror", grey, mirror},
-        {"clear glass", grey, clear_glass}, {"ground glass", grey, ground_glass},
-        {"pane", grey, clear_pane},         {"ground pane", grey, ground_pane}};
+        {"diffuse", grey, grey},
+        {"brushed", grey, brushed},
+        {"brushed room", brushed, brushed},
+        {"plastic room", shiny, shiny},
+        {"lacquer", lacquer, lacquer},
+        {"mirror", grey, mirror},
+        {"clear glass", grey, clear_glass},
+        {"ground glass", grey, ground_glass},
+        {"pane", grey, clear_pane},
+        {"ground pane", grey, ground_pane}};
     for (const auto& [name, walls, block] : all) {
         Scene scene = room(walls, block);
         add_lamp(scene);
@@ -91,8 +118,11 @@ TEST(Bidirectional, AgreesWithPathsAtAreaLights) {
 }
 
 TEST(Bidirectional, AgreesWithPathsAtLampsAndSuns) {
-    const std::pair<const char*, MaterialId (*)(Scene&)> all[] = {
-        {"diffuse", grey}, {"plastic", shiny}, {"brushed", brushed}, {"ground glass", ground_glass}, {"pane", clear_pane}};
+    const std::pair<const char*, MaterialId (*)(Scene&)> all[] = {{"diffuse", grey},
+                                                                  {"plastic", shiny},
+                                                                  {"brushed", brushed},
+                                                                  {"ground glass", ground_glass},
+                                                                  {"pane", clear_pane}};
     for (const auto& [name, block] : all) {
         for (int kind = 0; kind < 3; ++kind) {
             Scene scene = room(grey, block);
@@ -116,11 +146,13 @@ TEST(Bidirectional, AgreesWithPathsAtLampsAndSuns) {
     }
 }
 
-
 TEST(Bidirectional, AgreesWithPathsAboutLeaningNormals) {
     const std::pair<const char*, MaterialId (*)(Scene&)> all[] = {
-        {"diffuse ball", grey}, {"brushed ball", brushed}, {"plastic ball", shiny}, {"mirror ball", mirror},
-        {"lacquer ball", lacquer}, {"glass ball", clear_glass}, {"ground ball", ground_glass}, {"pane ball", clear_pane}, {"ground pane ball", ground_pane}};
+        {"diffuse ball", grey},           {"brushed ball", brushed},
+        {"plastic ball", shiny},          {"mirror ball", mirror},
+        {"lacquer ball", lacquer},        {"glass ball", clear_glass},
+        {"ground ball", ground_glass},    {"pane ball", clear_pane},
+        {"ground pane ball", ground_pane}};
     for (const auto& [name, material] : all) {
         Scene scene;
         add_room(scene, {-2, -2, 0}, {2, 2, 3}, grey(scene));
@@ -131,8 +163,10 @@ TEST(Bidirectional, AgreesWithPathsAboutLeaningNormals) {
 }
 
 TEST(Bidirectional, AgreesWithPathsAtLampsAboutLeaningNormals) {
-    const std::pair<const char*, MaterialId (*)(Scene&)> all[] = {
-        {"diffuse ball", grey}, {"brushed ball", brushed}, {"plastic ball", shiny}, {"ground ball", ground_glass}};
+    const std::pair<const char*, MaterialId (*)(Scene&)> all[] = {{"diffuse ball", grey},
+                                                                  {"brushed ball", brushed},
+                                                                  {"plastic ball", shiny},
+                                                                  {"ground ball", ground_glass}};
     for (const auto& [name, material] : all) {
         Scene scene;
         add_room(scene, {-2, -2, 0}, {2, 2, 3}, grey(scene));
@@ -143,7 +177,7 @@ TEST(Bidirectional, AgreesWithPathsAtLampsAboutLeaningNormals) {
 }
 
 TEST(Bidirectional, AgreesWithPathsInOddRooms) {
-    {   // lamp in a box with a gap
+    {  // lamp in a box with a gap
         Scene scene;
         add_room(scene, {-2, -2, 0}, {2, 2, 3}, grey(scene));
         const MaterialId white = add_material(scene, Rgb(0.9f));
@@ -153,10 +187,11 @@ TEST(Bidirectional, AgreesWithPathsInOddRooms) {
         add_box(scene, {-1, -1, 1.6f}, {1, -0.95f, 2.5f}, white);
         add_box(scene, {-1, 0.95f, 1.6f}, {1, 1, 2.5f}, white);
         add_box(scene, {-1, -1, 2.5f}, {1, 1, 2.55f}, white);
-        add_quad(scene, {-0.1f, -0.1f, 2.3f}, {0, 0.2f, 0}, {0.2f, 0, 0}, add_material(scene, Rgb(0.3f), Rgb(1000)));
+        add_quad(scene, {-0.1f, -0.1f, 2.3f}, {0, 0.2f, 0}, {0.2f, 0, 0},
+                 add_material(scene, Rgb(0.3f), Rgb(1000)));
         expect_agreement(std::move(scene), kPlaces, 1 << 18, "lamp in a box");
     }
-    {   // see-through
+    {  // see-through
         Scene scene = room(grey, grey);
         add_lamp(scene);
         const MaterialId veil = add_material(scene, Rgb(0.8f, 0.4f, 0.4f));
@@ -167,19 +202,23 @@ TEST(Bidirectional, AgreesWithPathsInOddRooms) {
         scene.materials[2].alpha = 0.6f;
         expect_agreement(std::move(scene), kPlaces, 1 << 17, "veils");
     }
-    {   // many lights, two-sided
+    {  // many lights, two-sided
         Scene scene = room(grey, shiny);
         Rng rng(1);
         for (int i = 0; i < 30; ++i) {
-            const Vec3 p = Vec3(3 * rng.uniform() - 1.5f, 3 * rng.uniform() - 1.5f, 0.5f + 2 * rng.uniform());
-            add_quad(scene, p, 0.2f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()), 0.2f * Vec3(rng.uniform(), rng.uniform(), -rng.uniform()), add_material(scene, Rgb(0.5f), Rgb(30 * rng.uniform(), 10, 10 * rng.uniform())));
+            const Vec3 p =
+                Vec3(3 * rng.uniform() - 1.5f, 3 * rng.uniform() - 1.5f, 0.5f + 2 * rng.uniform());
+            add_quad(
+                scene, p, 0.2f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()),
+                0.2f * Vec3(rng.uniform(), rng.uniform(), -rng.uniform()),
+                add_material(scene, Rgb(0.5f), Rgb(30 * rng.uniform(), 10, 10 * rng.uniform())));
             scene.materials.back().emits_backward = i % 2 == 0;
             scene.lights.push_back(point_light(p + Vec3(0.1f), Rgb(rng.uniform())));
         }
         scene.lights.push_back(sun({0.1f, 0.2f, -1}, Rgb(1000)));
         expect_agreement(std::move(scene), kPlaces, 1 << 17, "many lights");
     }
-    {   // a lamp in the plane of the ceiling
+    {  // a lamp in the plane of the ceiling
         Scene scene = room(grey, grey);
         scene.lights.push_back(point_light({0.5f, 0.4f, 3}, Rgb(10)));
         expect_agreement(std::move(scene), kPlaces, 1 << 17, "ceiling");

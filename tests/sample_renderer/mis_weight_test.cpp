@@ -141,8 +141,8 @@ std::optional<double> sum_of_weights(const Guide& guide, const PathVertex& end,
     std::vector<bool> deltas(path.deltas.rbegin(), path.deltas.rend());
     for (const Receiver& place : {last.place, other_side(last.place)}) {
         const Emission emission = guide.emission(place, path);
-        const Vec3 way = emission.parallel ? -emission.ray.direction
-                                           : emission.position - place.position;
+        const Vec3 way =
+            emission.parallel ? -emission.ray.direction : emission.position - place.position;
         if (!(emission.start > 0) || glm::dot(way, place.geometric_normal) <= 0) continue;
         const PathVertex first = guide.arrive_at(walk_from_light(emission), back[0]);
         auto light = guide.lead(first, deltas[0], std::span(back).subspan(1),
@@ -165,8 +165,7 @@ std::optional<FoundPath> find_path(const Meter& meter, const PathVertex& end, Rn
     PathVertex vertex = end;
     const bool area = !meter.area_lights.empty();
     while (path.hits.size() < 6) {
-        const auto step =
-            sample_step(vertex, rng.uniform(), {rng.uniform(), rng.uniform()});
+        const auto step = sample_step(vertex, rng.uniform(), {rng.uniform(), rng.uniform()});
         if (!step) return std::nullopt;
         if (!path.hits.empty()) path.deltas.push_back(step->delta);
         const Ray ray = {origin_toward(vertex.place, step->direction), step->direction};
@@ -183,8 +182,8 @@ std::optional<FoundPath> find_path(const Meter& meter, const PathVertex& end, Rn
         if (rng.uniform() > 0.4f || is_delta_only(vertex.bsdf)) continue;
         path.deltas.push_back(false);
         if (!area) return path;
-        const auto view = view_area_light(meter.lit, vertex.place, 0.5f,
-                                          {rng.uniform(), rng.uniform()});
+        const auto view =
+            view_area_light(meter.lit, vertex.place, 0.5f, {rng.uniform(), rng.uniform()});
         if (!view) return std::nullopt;
         path.lamp = Hit{view->sample.point, 1, true, view->sample.normal};
         return path;
@@ -223,7 +222,9 @@ Ways check_paths(const Meter& meter) {
         all.ways += ways;
         if (std::abs(*sum - 1) > 0.01) {
             std::printf("sum %g n %zu ways %d:", *sum, path->hits.size(), ways);
-            for (std::size_t k = 0; k < path->hits.size(); ++k) std::printf(" %u%s", unsigned(path->hits[k].point.object), path->deltas[k] ? "d" : "");
+            for (std::size_t k = 0; k < path->hits.size(); ++k)
+                std::printf(" %u%s", unsigned(path->hits[k].point.object),
+                            path->deltas[k] ? "d" : "");
             std::printf("\n");
         }
         all.worst = std::max(all.worst, std::abs(*sum - 1));
@@ -232,7 +233,7 @@ Ways check_paths(const Meter& meter) {
 }
 
 TEST(MisWeight, AllWaysToFindAPathSumToOne) {
-    const Gloss all[] = {metal(0), metal(0.4f), plastic(0), plastic(0.3f),
+    const Gloss all[] = {metal(0),        metal(0.4f),        plastic(0),       plastic(0.3f),
                          glass(0, false), glass(0.4f, false), glass(0.4f, true)};
     for (const Gloss& ball : all)
         for (const int light : {0, 1, 2}) {
@@ -249,7 +250,8 @@ TEST(MisWeight, AllWaysToFindAPathSumToOne) {
             EXPECT_LT(found.worst, 0.01) << light << " " << ball.metallic << ball.roughness;
             EXPECT_GT(found.paths, 300);
             EXPECT_GT(found.ways, 2 * found.paths);
-            std::printf("%d paths %d ways %d worst %g\n", light, found.paths, found.ways, found.worst);
+            std::printf("%d paths %d ways %d worst %g\n", light, found.paths, found.ways,
+                        found.worst);
         }
 }
 

@@ -1,0 +1,194 @@
+// Efficiency, 1 / (mean squared error x time), of sample renderers at places of a scene: what one
+// evaluation of indirect light costs and what it is worth. Prints JSON.
+//
+// usage: efficiency SCENE RENDERER[,RENDERER...] [--samples N] [--eye ... as chiaro render]
+//
+// Places are what rays through a grid of the picture's pixels meet. Errors are relative to the
+// truth there, two halves of many traced paths (or of --truth, a renderer's name) whose own noise
+// cancels in the product. Time is the processor's, of all threads, and with `gather` holds the
+// filling of its cells: each run starts without any.
+
+#include "apps/make_renderer.h"
+#include "apps/open_scene.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "scene/open_sides.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <ctime>
+
+namespace chiaro {
+namespace {
+
+constexpr std::uint32_t kFirstSamples = 64;
+
+struct Settings {
+    std::vector<std::string> renderers;
+    std::string truth = "path";
+    std::string light = "indirect";
+    std::uint32_t samples = 256;
+    std::uint32_t truth_samples = 1 << 13;
+    int across = 24;
+    int runs = 4;
+};
+
+double processor_seconds() {
+    timespec t = {};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+struct Stage {
+    Scene scene;
+    RayCaster rays;
+    AreaLights area_lights;
+    int threads;
+
+    Stage(Scene s, int n) : scene(std::move(s)), rays(scene, n), area_lights(scene), threads(n) {}
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+    std::unique_ptr<SampleRenderer> renderer(const std::string& name) const {
+        return make_renderer(parse_renderer(name, RendererName::path), scene, rays, area_lights,
+                             nullptr, threads);
+    }
+};
+
+// One a pixel of a coarse grid, where something diffuse is seen.
+std::vector<ShadeRequest> places(const Stage& stage, const View& view, const Settings& settings) {
+    std::vector<ShadeRequest> requests;
+    const int down = settings.across * view.height() / view.width();
+    const float step = static_cast<float>(view.width()) / static_cast<float>(settings.across);
+    for (int y = 0; y < down; ++y)
+        for (int x = 0; x < settings.across; ++x) {
+            const Ray ray = view.ray((static_cast<float>(x) + 0.5f) * step,
+                                     (static_cast<float>(y) + 0.5f) * step);
+            Hit hit;
+            stage.rays.intersect({&ray, 1}, {&hit, 1}, RayKind::camera);
+            if (!hit) continue;
+            ShadeRequest request;
+            request.where = hit.point;
+            request.front = hit.front;
+            request.light = settings.light == "direct" ? Light::direct : Light::indirect;
+            requests.push_back(request);
+        }
+    return requests;
+}
+
+// As the best scheme asks: few samples everywhere first, then as many again until all are taken.
+std::vector<double> shade(SampleRenderer& renderer, std::vector<ShadeRequest> requests,
+                          std::uint32_t samples, std::uint32_t seed) {
+    std::vector<ShadeResult> results(requests.size());
+    std::vector<double> lux(requests.size(), 0.0);
+    for (std::uint32_t done = 0; done < samples;) {
+        const std::uint32_t more = std::min(std::max(done, kFirstSamples), samples - done);
+        for (std::uint32_t i = 0; i < requests.size(); ++i) {
+            requests[i].first_sample = done;
+            requests[i].samples = more;
+            requests[i].seed = hash32(seed, i);
+        }
+        renderer.shade(requests, results);
+        for (std::size_t i = 0; i < lux.size(); ++i)
+            lux[i] += double(luminance(results[i].mean)) * more / samples;
+        done += more;
+    }
+    return lux;
+}
+
+struct Figures {
+    double error = 0;  // mean over places of the squared error over the truth's square
+    double bias = 0;   // mean error over mean truth
+    double seconds = 0;
+};
+
+Figures measure(const Stage& stage, const std::string& name,
+                const std::vector<ShadeRequest>& requests, const std::vector<double>& half_1,
+                const std::vector<double>& half_2, const Settings& settings) {
+    Figures figures;
+    double sum = 0, truth = 0;
+    for (int run = 0; run < settings.runs; ++run) {
+        const auto renderer = stage.renderer(name);
+        for (int w = 0; w < (getenv("WARM") ? atoi(getenv("WARM")) : 0); ++w)
+            shade(*renderer, requests, 1024, 77 + w);
+        const double start = processor_seconds();
+        const std::vector<double> lux =
+            shade(*renderer, requests, settings.samples, 1000 + static_cast<std::uint32_t>(run));
+        figures.seconds += (processor_seconds() - start) / settings.runs;
+        for (std::size_t i = 0; i < lux.size(); ++i) {
+            const double mean = 0.5 * (half_1[i] + half_2[i]);
+            if (!(mean > 0)) continue;
+            figures.error += (lux[i] - half_1[i]) * (lux[i] - half_2[i]) / (mean * mean);
+            sum += lux[i];
+            truth += mean;
+        }
+    }
+    figures.error /= double(settings.runs) * double(requests.size());
+    figures.bias = sum / truth - 1;
+    return figures;
+}
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> words(1);
+    for (const char c : text) {
+        if (c == ',')
+            words.emplace_back();
+        else
+            words.back() += c;
+    }
+    return words;
+}
+
+}  // namespace
+
+int run_efficiency(int argc, char** argv) {
+    CLI::App app("efficiency of sample renderers");
+    Options options;
+    Settings settings;
+    std::string renderers = "path,gather";
+    add_scene_options(app, options);
+    add_view_options(app, options);
+    app.add_option("--renderers", renderers);
+    app.add_option("--truth", settings.truth);
+    app.add_option("--light", settings.light);
+    app.add_option("--samples", settings.samples);
+    app.add_option("--truth-samples", settings.truth_samples);
+    app.add_option("--across", settings.across);
+    app.add_option("--runs", settings.runs);
+    app.add_option("--threads", options.threads);
+    CLI11_PARSE(app, argc, argv);
+
+    const Stage stage(open_scene(options), thread_count(options));
+    const PictureSize size = parse_size(options.size);
+    const View view(choose_camera(stage.scene, options), size.width, size.height);
+    const auto requests = places(stage, view, settings);
+    const auto truth = stage.renderer(settings.truth);
+    const auto half_1 = shade(*truth, requests, settings.truth_samples, 1);
+    const auto half_2 = shade(*truth, requests, settings.truth_samples, 2);
+
+    fmt::print("{{\"scene\": \"{}\", \"places\": {}, \"samples\": {}, \"renderers\": {{",
+               options.scene, requests.size(), settings.samples);
+    const char* comma = "";
+    for (const std::string& name : split(renderers)) {
+        const Figures f = measure(stage, name, requests, half_1, half_2, settings);
+        fmt::print(
+            "{}\n  \"{}\": {{\"relative_mse\": {:.3e}, \"bias\": {:.4f}, \"seconds\": {:.4f}, "
+            "\"efficiency\": {:.4g}}}",
+            comma, name, f.error, f.bias, f.seconds, 1 / (f.error * f.seconds));
+        comma = ",";
+    }
+    fmt::print("\n}}}}\n");
+    return 0;
+}
+
+}  // namespace chiaro
+
+int main(int argc, char** argv) {
+    try {
+        return chiaro::run_efficiency(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "efficiency: %s\n", error.what());
+        return 2;
+    }
+}

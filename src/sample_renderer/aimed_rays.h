@@ -1,0 +1,29 @@
+// First rays of paths aimed at some surfaces, beside those that are distributed by the cosine: what
+// is small and bright, few of the latter find.
+#pragma once
+
+#include "sample_renderer/path_wave.h"
+#include "sample_renderer/sequence.h"
+#include "scene/sampled_surfaces.h"
+
+namespace chiaro {
+
+/// Surfaces to aim at; one in `every` samples of a replicate also sends a ray to them.
+struct Aims {
+    const SampledSurfaces& surfaces;  // not empty
+    std::uint32_t every = 1;
+};
+
+/// Adds the aimed rays of samples [first, first + count) to a wave that holds these samples' rays
+/// of the cosine distribution. `targets` gets the point that each is aimed at.
+void add_aimed_rays(const Aims& aims, const Receiver& receiver, std::uint32_t seed,
+                    std::uint32_t first, std::uint32_t count, PathWave& wave,
+                    std::vector<SurfacePoint>& targets);
+
+/// To be called when all first rays are cast. Leaves out what met nothing, and the aimed rays (the
+/// last of the wave) that something else stopped before their target; weights all the rest by the
+/// balance heuristic.
+void weigh_aimed_rays(const Aims& aims, const Receiver& receiver,
+                      std::span<const SurfacePoint> targets, PathWave& wave);
+
+}  // namespace chiaro
