@@ -9,86 +9,74 @@
 namespace chiaro {
 namespace {
 
-// Pixels in which one ray is not enough: an outline runs toward one of the neighbours.
-bool needs_more_rays(const std::vector<std::vector<CentreHit>>& centres, int x, int y,
-                     float footprint) {
-    const CentreHit& here = centres[y][x];
-    if (here.intricate) return true;
-    const int height = static_cast<int>(centres.size());
-    const int width = static_cast<int>(centres[y].size());
-    for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-            const int nx = x + dx, ny = y + dy;
-            if (nx < 0 || ny < 0 || nx >= width || ny >= height) continue;
-            if (outline_between(here, centres[ny][nx], footprint)) return true;
-        }
-    return false;
+// Textures averaged over a pixel that shows no outline: over what the pixel's centre ray met by
+// each trail.
+void average_texture(const Scene& scene, std::span<const CentreRow> centres, int y,
+                     SeenPiece& piece) {
+    const CentreHit* centre = find_trail(centres[y].at(static_cast<int>(piece.x)), piece.trail);
+    if (!centre || !centre->textured) return;
+    const Neighbours near = on_same_primitive(centres, *centre, y);
+    const Rgb albedo = mean_diffuse_albedo(scene, piece, near.beside->point, near.below->point);
+    piece.reflectance = piece.weight * albedo * (1 / kPi);
 }
 
-// Whether the pixel or one beside it shows something that emits. A sliver of a lamp makes a pixel
-// bright, so that 16 steps between none of it and all would be seen.
-bool touches_light(const std::vector<std::vector<CentreHit>>& centres, int x, int y) {
-    const int height = static_cast<int>(centres.size());
-    const int width = static_cast<int>(centres[y].size());
-    for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, height - 1); ++ny)
-        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, width - 1); ++nx)
-            if (centres[ny][nx].emissive) return true;
-    return false;
-}
-
-// The hits of two neighbours, beside and above or below, that lie on the same primitive as this
-// pixel's.
-struct Neighbours {
-    const CentreHit* beside = nullptr;
-    const CentreHit* below = nullptr;
-};
-Neighbours on_same_primitive(const std::vector<std::vector<CentreHit>>& centres, int x, int y) {
-    const CentreHit& here = centres[y][x];
-    const auto same = [&](int nx, int ny) -> const CentreHit* {
-        if (ny < 0 || ny >= static_cast<int>(centres.size())) return nullptr;
-        if (nx < 0 || nx >= static_cast<int>(centres[ny].size())) return nullptr;
-        const CentreHit& there = centres[ny][nx];
-        const bool one =
-            there.object == here.object && there.point.primitive == here.point.primitive;
-        return one ? &there : nullptr;
-    };
-    Neighbours n{same(x + 1, y), same(x, y + 1)};
-    if (!n.beside) n.beside = same(x - 1, y);
-    if (!n.below) n.below = same(x, y - 1);
-    return n;
-}
-
-// A row again, with 16 rays or more in each pixel that needs them, and textures averaged over the
-// others.
-SeenRow refine_row(const RayCaster& rays, const View& view, int y, const SeenRow& coarse,
-                   const std::vector<std::vector<CentreHit>>& centres, float footprint, Aov aov) {
-    SeenRow row;
-    row.background = coarse.background;
-    std::vector<char> outlined(view.width());
-    for (int x = 0; x < view.width(); ++x)
-        outlined[x] = needs_more_rays(centres, x, y, footprint) ? 1 : 0;
-    const std::vector<char> thin = more_within(rays, view, y, centres[y], footprint, outlined);
-
-    auto piece = coarse.pieces.begin();
-    for (int x = 0; x < view.width(); ++x) {
-        const CentreHit& centre = centres[y][x];
-        const Neighbours near = centre.textured ? on_same_primitive(centres, x, y) : Neighbours{};
-        const bool cornered = centre.textured && !(near.beside && near.below);
-        const bool more = cornered || outlined[x] || thin[x];
-        if (more)
-            see_pixel(rays, view, x, y, touches_light(centres, x, y) ? 8 : 4, aov, row);
-        else if (centre.object == ObjectId::none && aov == Aov::radiance)
-            row.background[x] = mean_environment(rays.scene(), view, x, y, footprint);
-        for (; piece != coarse.pieces.end() && piece->x == static_cast<std::uint32_t>(x); ++piece) {
-            if (more) continue;
-            row.pieces.push_back(*piece);
-            if (centre.textured && aov == Aov::radiance)
-                row.pieces.back().reflectance =
-                    mean_base_color(rays.scene(), centre.point, near.beside->point,
-                                    near.below->point) /
-                    kPi;
-        }
+// Whether a texture shows in the pixel whose mean no neighbours tell.
+bool cornered(std::span<const CentreRow> centres, int x, int y) {
+    for (const CentreHit& hit : centres[y].at(x)) {
+        if (!hit.textured) continue;
+        const Neighbours near = on_same_primitive(centres, hit, y);
+        if (!near.beside || !near.below) return true;
     }
+    return false;
+}
+
+// Pixels of the row that need 16 rays or, at lamps, 64: a sliver of a lamp makes a pixel bright, so
+// that 16 steps between none of it and all would be seen.
+std::vector<FinePixel> fine_pixels(const Viewing& viewing, int y,
+                                   std::span<const CentreRow> centres) {
+    const int width = viewing.view.width();
+    std::vector<char> outlined(width);
+    for (int x = 0; x < width; ++x)
+        outlined[x] = needs_more_rays(centres, x, y, viewing.footprint) ? 1 : 0;
+    const std::vector<char> thin = more_within(viewing, y, centres[y], outlined);
+    std::vector<FinePixel> pixels;
+    for (int x = 0; x < width; ++x)
+        if (outlined[x] || thin[x] || cornered(centres, x, y))
+            pixels.push_back({x, touches_light(centres, x, y) ? 8 : 4});
+    return pixels;
+}
+
+// A row again, with many rays in each pixel that needs them, and textures averaged over the others.
+SeenRow refine_row(const Viewing& viewing, int y, const SeenRow& coarse,
+                   std::span<const CentreRow> centres) {
+    const std::vector<FinePixel> pixels = fine_pixels(viewing, y, centres);
+    SeenRow fine;
+    fine.background = coarse.background;
+    if (viewing.aov == Aov::radiance)
+        for (int x = 0; x < viewing.view.width(); ++x)
+            if (centres[y].at(x).empty()) fine.background[x] = mean_environment(viewing, x, y);
+    see_pixels(viewing, y, pixels, fine);
+
+    SeenRow row;
+    row.background = std::move(fine.background);
+    row.pieces.reserve(coarse.pieces.size() + fine.pieces.size());
+    auto from_coarse = coarse.pieces.begin();
+    auto from_fine = fine.pieces.begin();
+    const auto add_coarse_before = [&](std::uint32_t x) {
+        for (; from_coarse != coarse.pieces.end() && from_coarse->x < x; ++from_coarse) {
+            row.pieces.push_back(*from_coarse);
+            if (viewing.aov == Aov::radiance)
+                average_texture(viewing.rays.scene(), centres, y, row.pieces.back());
+        }
+    };
+    for (const FinePixel& pixel : pixels) {
+        const auto x = static_cast<std::uint32_t>(pixel.x);
+        add_coarse_before(x);
+        while (from_coarse != coarse.pieces.end() && from_coarse->x == x) ++from_coarse;
+        for (; from_fine != fine.pieces.end() && from_fine->x == x; ++from_fine)
+            row.pieces.push_back(*from_fine);
+    }
+    add_coarse_before(static_cast<std::uint32_t>(viewing.view.width()));
     return row;
 }
 
@@ -109,10 +97,12 @@ IdMap put_on_roots(ShadingCache& cache, const std::vector<SeenRow>& rows, const 
             map.first_of_pixel.push_back(static_cast<std::uint32_t>(map.fragments.size()));
             map.background.pixels[pixel] = rows[y].background[x];
             for (; piece != rows[y].pieces.end() && piece->x == static_cast<std::uint32_t>(x);
-                 ++piece)
+                 ++piece) {
+                if (piece->reflectance == Rgb(0)) continue;
                 map.fragments.push_back(
                     {pixel, cache.root(piece->point.object, piece->point.primitive, piece->front),
                      Vec2(piece->point.u, piece->point.v), piece->reflectance});
+            }
         }
     }
     map.first_of_pixel.push_back(static_cast<std::uint32_t>(map.fragments.size()));
@@ -123,25 +113,22 @@ IdMap put_on_roots(ShadingCache& cache, const std::vector<SeenRow>& rows, const 
 
 IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
                   const RayViewSettings& settings, OpenSides* open_sides) {
+    const Viewing viewing = make_viewing(rays, view, settings);
     std::vector<SeenRow> rows(view.height());
-    std::vector<std::vector<CentreHit>> centres(view.height());
+    const bool antialiased = settings.quality == ViewQuality::antialiased;
+    std::vector<CentreRow> centres(antialiased ? rows.size() : 0);
     parallel_for(settings.threads, rows.size(), [&](std::size_t y) {
-        rows[y] = see_row(rays, view, static_cast<int>(y), settings.aov, centres[y]);
+        rows[y] = see_row(viewing, static_cast<int>(y), antialiased ? &centres[y] : nullptr);
     });
     if (open_sides)
         for (const SeenRow& row : rows)
             for (const SeenPiece& piece : row.pieces)
                 open_sides->mark(piece.point.object, piece.point.primitive, piece.front);
 
-    if (settings.quality == ViewQuality::antialiased) {
-        const float middle_x = 0.5f * static_cast<float>(view.width());
-        const float middle_y = 0.5f * static_cast<float>(view.height());
-        const float footprint = glm::length(view.ray(middle_x + 1, middle_y).direction -
-                                            view.ray(middle_x, middle_y).direction);
+    if (antialiased) {
         std::vector<SeenRow> finer(rows.size());
         parallel_for(settings.threads, rows.size(), [&](std::size_t y) {
-            finer[y] = refine_row(rays, view, static_cast<int>(y), rows[y], centres, footprint,
-                                  settings.aov);
+            finer[y] = refine_row(viewing, static_cast<int>(y), rows[y], centres);
         });
         rows = std::move(finer);
     }

@@ -176,9 +176,12 @@ void RayCaster::transmittance(std::span<const Ray> rays, std::span<Rgb> through)
     }
 }
 
-void RayCaster::intersect_layers(std::span<const Ray> rays, std::vector<LayerHit>& found) const {
-    PacketContext context = make_context(
-        embree_->scene, *scene_, {.kind = FilterKind::layers, .camera = true, .coherent = true});
+void RayCaster::intersect_layers(std::span<const Ray> rays, std::vector<LayerHit>& found,
+                                 RayKind kind) const {
+    const bool camera = kind == RayKind::camera;
+    PacketContext context =
+        make_context(embree_->scene, *scene_,
+                     {.kind = FilterKind::layers, .camera = camera, .coherent = camera});
     std::array<LayersMet, kPacket> layers;
     context.layers = layers.data();
     found.clear();

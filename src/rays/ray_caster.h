@@ -61,9 +61,11 @@ public:
     /// of one length.
     void transmittance(std::span<const Ray> rays, std::span<Rgb> through) const;
 
-    /// Everything that camera rays show: the blended surfaces on the way of each, front to back,
-    /// and what stops it; also those that lie in one place. Replaces `found`, in the order of rays.
-    void intersect_layers(std::span<const Ray> rays, std::vector<LayerHit>& found) const;
+    /// Everything that rays show: the blended surfaces on the way of each, front to back, and what
+    /// stops it; also those that lie in one place. No chance in it. Replaces `found`, in the order
+    /// of rays.
+    void intersect_layers(std::span<const Ray> rays, std::vector<LayerHit>& found,
+                          RayKind kind = RayKind::camera) const;
 
     /// The object's `to_world` has changed: about 0.05 ms, whatever its size. Not while others
     /// cast.

@@ -9,25 +9,6 @@
 namespace chiaro::tiny {
 namespace {
 
-Gloss metal(float roughness) {
-    return {.model = GlossModel::metallic_roughness, .metallic = 1, .roughness = roughness};
-}
-Gloss plastic(float roughness) {
-    return {.model = GlossModel::metallic_roughness, .metallic = 0, .roughness = roughness};
-}
-Gloss glass(float roughness, bool thin) {
-    return {.model = GlossModel::metallic_roughness,
-            .roughness = roughness,
-            .transmission = 1,
-            .thin = thin};
-}
-
-MaterialId add_glossy(Scene& scene, Rgb base_color, const Gloss& gloss) {
-    const MaterialId id = add_material(scene, base_color);
-    scene.materials[index_of(id)].gloss = gloss;
-    return id;
-}
-
 Rgb seen(const Meter& meter, Vec3 from, Vec3 toward, std::uint32_t samples) {
     const Ray ray = {from, glm::normalize(toward - from)};
     Rgb result;

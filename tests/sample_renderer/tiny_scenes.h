@@ -16,6 +16,31 @@ inline MaterialId add_material(Scene& scene, Rgb base_color, Rgb emission = Rgb(
     return static_cast<MaterialId>(scene.materials.size() - 1);
 }
 
+/// Materials that are not diffuse, by glTF.
+inline Gloss metal(float roughness) {
+    return {.model = GlossModel::metallic_roughness, .metallic = 1, .roughness = roughness};
+}
+inline Gloss plastic(float roughness) {
+    return {.model = GlossModel::metallic_roughness, .metallic = 0, .roughness = roughness};
+}
+inline Gloss glass(float roughness, bool thin) {
+    return {.model = GlossModel::metallic_roughness,
+            .roughness = roughness,
+            .transmission = 1,
+            .thin = thin};
+}
+
+/// MTL's: reflects `specular` at any angle, sharply.
+inline Gloss mirror(Rgb specular) {
+    return {.model = GlossModel::phong, .specular = specular, .illumination_model = 3};
+}
+
+inline MaterialId add_glossy(Scene& scene, Rgb base_color, const Gloss& gloss) {
+    const MaterialId id = add_material(scene, base_color);
+    scene.materials[index_of(id)].gloss = gloss;
+    return id;
+}
+
 inline Primitive quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
                       MaterialId material) {
     return {{a, b, c, d}, material};
