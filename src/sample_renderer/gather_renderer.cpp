@@ -48,23 +48,22 @@ struct Asking {
 // end in it.
 class CellShares {
 public:
-    /// Room for as many cells as `rays` may end in.
+    /// Room for as many cells as `rays` may end in; a path that goes on from glossy surfaces may
+    /// end in several, for which more is made.
     void reset(std::uint32_t rays) {
+        count_ = 0;
         const std::size_t slots = std::bit_ceil(2 * std::size_t{rays});
         ids_.assign(slots, CellId::none);
         shares_.assign(slots, 0.0f);
     }
     void add(CellId id, float share) {
-        const std::size_t home = index_of(id) * 0x9e3779b1u >> 7;
-        std::size_t slot = home & (ids_.size() - 1);
-        for (std::size_t step = 0; step < kMostSteps; ++step) {
-            const std::size_t i = (home + step) & (ids_.size() - 1);
-            if (ids_[i] != id && ids_[i] != CellId::none) continue;
-            slot = i;
-            break;
+        const std::size_t slot = find(id);
+        if (ids_[slot] == CellId::none && 2 * ++count_ > ids_.size()) {
+            grow();
+            add(id, share);
+            return;
         }
-        // Where it is crowded, cells are taken together: the variance comes out a little larger.
-        if (ids_[slot] == CellId::none) ids_[slot] = id;
+        ids_[slot] = id;
         shares_[slot] += share;
     }
     // Variance of the sum of shares times the cells' luminance.
@@ -77,8 +76,22 @@ public:
     }
 
 private:
-    static constexpr std::size_t kMostSteps = 16;
-    std::vector<CellId> ids_;  // open addressing
+    std::size_t find(CellId id) const {
+        for (std::size_t i = index_of(id) * 0x9e3779b1u >> 7;; ++i) {
+            i &= ids_.size() - 1;
+            if (ids_[i] == id || ids_[i] == CellId::none) return i;
+        }
+    }
+    void grow() {
+        const std::vector<CellId> ids = std::move(ids_);
+        const std::vector<float> shares = std::move(shares_);
+        reset(static_cast<std::uint32_t>(ids.size()));
+        for (std::size_t i = 0; i < ids.size(); ++i)
+            if (ids[i] != CellId::none) add(ids[i], shares[i]);
+    }
+
+    std::size_t count_ = 0;
+    std::vector<CellId> ids_;  // open addressing, at most half full
     std::vector<float> shares_;
 };
 
