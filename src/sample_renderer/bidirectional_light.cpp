@@ -44,12 +44,13 @@ void walk_from_lights(const Wave& w) {
         s.wave.add(emission->ray, walk);
     }
     s.wave.cast(w.lit.caster);
-    follow_walks(w.lit, s.wave, [&](const WalkMeeting& met, BounceNumbers&) {
+    const auto keep = [&](const WalkMeeting& met, BounceNumbers&) {
         if (is_delta_only(met.vertex.bsdf)) return;
         std::uint32_t& newest = s.newest[met.walk.sample];
         s.light_vertices.push_back({met.vertex, newest});
         newest = static_cast<std::uint32_t>(s.light_vertices.size() - 1);
-    });
+    };
+    follow_walks(w.lit, s.wave, keep, [](const Walk&, const Ray&) {});
 }
 
 void add(const Wave& w, const Join& found, std::uint32_t sample) {
@@ -65,10 +66,10 @@ void join_walks(const Wave& w, const PathVertex& eye, std::uint32_t sample) {
 }
 
 // Asks the lights on the vertex's own side, and those on the other if it lets light through.
-void join_lights(const Wave& w, const PathVertex& eye, float choice, Vec2 spot,
+void join_lights(const Wave& w, const PathVertex& eye, const Emitters::Numbers& numbers,
                  std::uint32_t sample) {
     const auto ask = [&](const Receiver& place) {
-        w.emitters.sample_each_kind(w.lit, place, choice, spot, [&](const LightSample& light) {
+        w.emitters.sample_each_kind(w.lit, place, numbers, [&](const LightSample& light) {
             if (const auto found = join(eye, place, light)) add(w, *found, sample);
         });
     };
@@ -77,31 +78,42 @@ void join_lights(const Wave& w, const PathVertex& eye, float choice, Vec2 spot,
     if (lit_through) ask(other_side(eye.place));
 }
 
-// Emission that a walk from the eye met by chance.
+// Where light samples were asked for that might have found what the walk's ray meets.
+LitPlace start_of(const Walk& walk, const Ray& ray) {
+    const bool below = glm::dot(walk.normal, ray.direction) < 0;
+    return {ray.origin, below ? -walk.normal : walk.normal};
+}
+
+// Emission that a walk from the eye met by chance. On the first edge it is direct light.
 void add_met_light(const Wave& w, const WalkMeeting& met) {
     const Rgb radiance = emission(w.lit.scene, met.hit.point, met.hit.front);
-    if (radiance == Rgb(0)) return;
-    const Vec3 direction = met.ray.direction;
-    const bool below = glm::dot(met.walk.normal, direction) < 0;
-    const LitPlace place = {met.ray.origin, below ? -met.walk.normal : met.walk.normal};
-    const MetLight light = w.emitters.met(w.lit, place, direction, met.hit);
+    if (met.walk.vertices == 1 || radiance == Rgb(0)) return;
+    const MetLight light =
+        w.emitters.met(w.lit, start_of(met.walk, met.ray), met.ray.direction, met.hit);
     w.sums[w.slot(met.walk.sample)] +=
-        met.vertex.throughput * radiance * weight_of_met_light(met.vertex, light);
+        met.vertex.throughput * radiance * weight_of_met_light(met.vertex.trail, light);
+}
+
+void add_met_sky(const Wave& w, const Walk& walk, const Ray& ray) {
+    if (walk.vertices == 1 || w.lit.environment.empty()) return;
+    const MetLight light = w.emitters.met_sky(w.lit, start_of(walk, ray), ray.direction);
+    w.sums[w.slot(walk.sample)] += walk.throughput * w.lit.environment.radiance(ray.direction) *
+                                   weight_of_met_light(trail_at_sky(walk, ray.direction), light);
+}
+
+// Those of the first vertex are the sequence's.
+Emitters::Numbers light_numbers(const Wave& w, const Walk& walk, BounceNumbers& numbers) {
+    if (walk.steps > 0) return {numbers.next(), numbers.next_pair(), numbers.next_pair()};
+    const std::uint32_t sample = w.first + walk.sample;
+    return {w.sequence.number(sample, kFirstLightChoice), w.sequence.pair(sample, kFirstLightPlace),
+            w.sequence.rotated_pair(sample, kFirstLightPlace, kFirstSkyRotation)};
 }
 
 void meet_from_eye(const Wave& w, const WalkMeeting& met, BounceNumbers& numbers) {
-    // Emission on the first edge is direct light.
-    const PathVertex& vertex = met.vertex;
-    const std::uint32_t sample = met.walk.sample;
-    if (met.walk.vertices > 1 && met.surface.material.emissive()) add_met_light(w, met);
-    if (is_delta_only(vertex.bsdf)) return;
-
-    const bool sequenced = met.walk.steps == 0;
-    const std::uint32_t number = w.first + sample;
-    const float choice = sequenced ? w.sequence.number(number, kFirstLightChoice) : numbers.next();
-    const Vec2 spot = sequenced ? w.sequence.pair(number, kFirstLightPlace) : numbers.next_pair();
-    join_lights(w, vertex, choice, spot, sample);
-    join_walks(w, vertex, sample);
+    if (met.surface.material.emissive()) add_met_light(w, met);
+    if (is_delta_only(met.vertex.bsdf)) return;
+    join_lights(w, met.vertex, light_numbers(w, met.walk, numbers), met.walk.sample);
+    join_walks(w, met.vertex, met.walk.sample);
     if (w.scratch.shadows.rays.size() >= kMostShadowRays)
         w.scratch.shadows.settle(w.lit.caster, w.sums);
 }
@@ -123,9 +135,10 @@ RayCount walk_from_point(const Wave& w, const OpenSides* open_sides, const Recei
     s.wave.cast(w.lit.caster);
     const RayCount rays = count_inside(open_sides, s.wave.hits);
     if (w.emitters.empty()) return rays;
-    follow_walks(w.lit, s.wave, [&](const WalkMeeting& met, BounceNumbers& numbers) {
-        meet_from_eye(w, met, numbers);
-    });
+    follow_walks(
+        w.lit, s.wave,
+        [&](const WalkMeeting& met, BounceNumbers& numbers) { meet_from_eye(w, met, numbers); },
+        [&](const Walk& walk, const Ray& ray) { add_met_sky(w, walk, ray); });
     s.shadows.settle(w.lit.caster, w.sums);
     return rays;
 }

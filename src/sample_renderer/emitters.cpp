@@ -50,11 +50,12 @@ Emitters::Emitters(const LitScene& lit) {
     lamps_ = WeightedChoice(lamps);
     suns_ = WeightedChoice(suns);
 
-    std::vector<double> kinds = {lit.area_lights.power(), sum_of(lamps), sum_of(suns)};
+    const float sky = lit.environment.empty() ? 0 : choice_weight(mean_radiance(scene.environment));
+    std::vector<double> kinds = {lit.area_lights.power(), sum_of(lamps), sum_of(suns),
+                                 double(4 * kPi) * sky / disk_density()};
     const double all = sum_of(kinds);
     for (double& power : kinds)
-        if (power > 0)
-            power = kEvenPart / static_cast<float>(kKinds) + (1 - kEvenPart) * power / all;
+        if (power > 0) power = kEvenPart / 4 + (1 - kEvenPart) * power / all;
     kinds_ = WeightedChoice(kinds);
 }
 
@@ -62,15 +63,19 @@ std::optional<Emission> Emitters::sample(const LitScene& lit, float choice, Vec2
                                          Vec2 direction) const {
     const WeightedChoice::Choice kind = kinds_.choose(choice);
     std::optional<Emission> emission;
-    switch (kind.index) {
-        case kArea:
+    switch (static_cast<LightSource>(kind.index)) {
+        case LightSource::area:
             emission = from_area(lit, kind.rest, place, direction);
             break;
-        case kLamp:
+        case LightSource::lamp:
             emission = from_lamp(lit, kind.rest, direction);
             break;
-        default:
+        case LightSource::sun:
             emission = from_sun(lit, kind.rest, place);
+            break;
+        case LightSource::sky:
+            emission = from_sky(lit, place, direction);
+            break;
     }
     if (!emission) return emission;
     emission->start *= kind.probability;
@@ -96,8 +101,7 @@ std::optional<Emission> Emitters::from_area(const LitScene& lit, float choice, V
                          .direction = area_direction_density(local.z, both_ways),
                          .position = sample.position,
                          .normal = normal,
-                         .parallel = false,
-                         .solid = true,
+                         .from = LightSource::area,
                          .object = object,
                          .index = primitive};
     emission.ray = {sample.position + lit.caster.offset(sample.position, object) * normal, w};
@@ -120,46 +124,67 @@ std::optional<Emission> Emitters::from_lamp(const LitScene& lit, float choice,
                          .direction = pdf_cone(rim_of(light)),
                          .position = light.position,
                          .normal = Vec3(0),
-                         .parallel = false,
-                         .solid = false,
+                         .from = LightSource::lamp,
                          .index = chosen.index};
     emission.flux = intensity / (emission.start * emission.direction);
     return emission;
 }
 
-// Rays through a disk that the whole scene is behind.
+Ray Emitters::ray_from_infinity(Vec3 direction, Vec2 place) const {
+    const Vec2 disk = radius_ * square_to_disk(place);
+    return {centre_ + Frame(direction).to_world({disk.x, disk.y, -radius_}), direction};
+}
+
 Emission Emitters::from_sun(const LitScene& lit, float choice, Vec2 place) const {
     const WeightedChoice::Choice chosen = suns_.choose(choice);
     const PunctualLight& light = lit.scene.lights[chosen.index];
-    const Vec2 disk = radius_ * square_to_disk(place);
-    const Vec3 start = centre_ + Frame(light.direction).to_world({disk.x, disk.y, -radius_});
-    Emission emission = {.ray = {start, light.direction},
+    Emission emission = {.ray = ray_from_infinity(light.direction, place),
                          .start = chosen.probability,
                          .direction = disk_density(),
-                         .position = start,
+                         .position = Vec3(0),
                          .normal = Vec3(0),
-                         .parallel = true,
-                         .solid = false,
+                         .from = LightSource::sun,
                          .index = chosen.index};
     emission.flux = light.intensity / (emission.start * emission.direction);
     return emission;
 }
 
+std::optional<Emission> Emitters::from_sky(const LitScene& lit, Vec2 place, Vec2 direction) const {
+    const auto sample = lit.environment.sample_anywhere(direction);
+    if (!sample || sample->radiance == Rgb(0)) return std::nullopt;
+    Emission emission = {.ray = ray_from_infinity(-sample->direction, place),
+                         .start = sample->pdf,
+                         .direction = disk_density(),
+                         .position = Vec3(0),
+                         .normal = -sample->direction,
+                         .from = LightSource::sky};
+    emission.flux = sample->radiance / (emission.start * emission.direction);
+    return emission;
+}
+
 float Emitters::chosen(const LitScene& lit, const Receiver& place, const Emission& emission) {
-    if (emission.object != ObjectId::none)
-        return lit.area_lights.pdf(lit_place(place), emission.object, emission.index);
-    if (emission.parallel) return sun_chance(lit, place, emission.index);
-    return lit.punctual.lamp_chance(lit_place(place), emission.index);
+    switch (emission.from) {
+        case LightSource::area:
+            return lit.area_lights.pdf(lit_place(place), emission.object, emission.index);
+        case LightSource::lamp:
+            return lit.punctual.lamp_chance(lit_place(place), emission.index);
+        case LightSource::sun:
+            return sun_chance(lit, place, emission.index);
+        case LightSource::sky:
+            break;
+    }
+    return lit.environment.pdf(lit_place(place), -emission.ray.direction);
 }
 
 std::optional<LightSample> Emitters::sample_area_light(const LitScene& lit, const Receiver& place,
-                                                       float choice, Vec2 spot) const {
-    const auto view = view_area_light(lit, place, choice, spot);
+                                                       const Numbers& numbers) const {
+    const auto view = view_area_light(lit, place, numbers.choice, numbers.spot);
     if (!view) return std::nullopt;
     const AreaLightSample& sample = view->sample;
     const auto [object, primitive, u, v] = sample.point;
     const bool both_ways = shines_both_ways(lit.scene, object, primitive);
-    const float walk = kinds_.probability(kArea) * lit.area_lights.pdf_by_power(object, primitive);
+    const float walk =
+        chance_of(LightSource::area) * lit.area_lights.pdf_by_power(object, primitive);
     const float seen = view->light_cosine / view->squared;  // of the light's area, in solid angle
     return LightSample{
         .shadow_ray = view->shadow_ray,
@@ -178,7 +203,7 @@ std::optional<LightSample> Emitters::sample_lamp(const LitScene& lit, const Rece
     if (!found) return std::nullopt;
     const PunctualLight& light = lit.scene.lights[chosen->light];
     const Vec3 between = light.position - place.position;
-    const float walk = kinds_.probability(kLamp) * lamps_.probability(chosen->light);
+    const float walk = chance_of(LightSource::lamp) * lamps_.probability(chosen->light);
     return LightSample{.shadow_ray = found->shadow_ray,
                        .to_light = found->to_light,
                        .irradiance = found->irradiance / (found->cosine * chosen->probability),
@@ -192,7 +217,7 @@ std::optional<LightSample> Emitters::sample_sun(const LitScene& lit, const Recei
     if (!chosen) return std::nullopt;
     const auto found = connect_punctual(lit, place, chosen->light);
     if (!found) return std::nullopt;
-    const float walk = kinds_.probability(kSun) * suns_.probability(chosen->light);
+    const float walk = chance_of(LightSource::sun) * suns_.probability(chosen->light);
     return LightSample{.shadow_ray = found->shadow_ray,
                        .to_light = found->to_light,
                        .irradiance = found->irradiance / (found->cosine * chosen->probability),
@@ -200,14 +225,33 @@ std::optional<LightSample> Emitters::sample_sun(const LitScene& lit, const Recei
                        .direction = disk_density()};
 }
 
+std::optional<LightSample> Emitters::sample_sky(const LitScene& lit, const Receiver& place,
+                                                Vec2 sky) const {
+    const auto found = connect_environment(lit, place, sky);
+    if (!found) return std::nullopt;
+    const float walk = chance_of(LightSource::sky) * lit.environment.pdf_anywhere(found->to_light);
+    return LightSample{.shadow_ray = found->shadow_ray,
+                       .to_light = found->to_light,
+                       .irradiance = found->irradiance / found->cosine,
+                       .start = walk / found->pdf_solid_angle,
+                       .direction = disk_density(),
+                       .met = 1 / found->pdf_solid_angle};
+}
+
 MetLight Emitters::met(const LitScene& lit, const LitPlace& place, Vec3 direction,
                        const Hit& hit) const {
     const auto [object, primitive, u, v] = hit.point;
     const float cosine = std::abs(glm::dot(hit.normal, direction));
     const bool both_ways = shines_both_ways(lit.scene, object, primitive);
-    return {{.walk = kinds_.probability(kArea) * lit.area_lights.pdf_by_power(object, primitive),
+    return {{.walk = chance_of(LightSource::area) * lit.area_lights.pdf_by_power(object, primitive),
              .chosen = lit.area_lights.pdf(place, object, primitive)},
             area_direction_density(cosine, both_ways)};
+}
+
+MetLight Emitters::met_sky(const LitScene& lit, const LitPlace& place, Vec3 direction) const {
+    return {{.walk = chance_of(LightSource::sky) * lit.environment.pdf_anywhere(direction),
+             .chosen = lit.environment.pdf(place, direction)},
+            disk_density()};
 }
 
 }  // namespace chiaro

@@ -47,8 +47,8 @@ std::optional<Join> join(const PathVertex& eye, const Receiver& place, const Lig
     return found;
 }
 
-float weight_of_met_light(const PathVertex& vertex, const MetLight& light) {
-    return mis_weight(0, shorter_ways(vertex.trail, light.end, light.pdf_back));
+float weight_of_met_light(const Trail& trail, const MetLight& light) {
+    return mis_weight(0, shorter_ways(trail, light.end, light.pdf_back));
 }
 
 }  // namespace chiaro

@@ -20,7 +20,7 @@ std::optional<Join> join(const PathVertex& eye, const PathVertex& light);
 /// A walk's end and a light sample, for `place`, the vertex's own or its other side.
 std::optional<Join> join(const PathVertex& eye, const Receiver& place, const LightSample& light);
 
-/// Weight of a path whose walk from the eye met the light at `vertex`.
-float weight_of_met_light(const PathVertex& vertex, const MetLight& light);
+/// Weight of a path whose walk from the eye met the light, with this trail there.
+float weight_of_met_light(const Trail& trail, const MetLight& light);
 
 }  // namespace chiaro

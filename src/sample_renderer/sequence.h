@@ -44,7 +44,7 @@ class Sequence {
 public:
     explicit Sequence(std::uint32_t seed) : seed_(seed), table_(table()) {
         for (std::uint32_t r = 0; r < kReplicates; ++r)
-            for (std::uint32_t d = 0; d < kRotations; ++d)
+            for (std::uint32_t d = 0; d < kDimensions; ++d)
                 rotations_[r][d] = to_unit_float(hash32(seed, 0x5eed'0000U + 16 * r + d));
     }
 
@@ -77,7 +77,6 @@ public:
 
 private:
     static constexpr int kDimensions = 7;
-    static constexpr int kRotations = 7;
 
     float rotated(std::uint32_t replicate, int base, int dimension, std::uint32_t index) const {
         const float point = index < kTableSize ? table_[base][index] : halton(base, index);
@@ -90,7 +89,7 @@ private:
     static const Table& table();
     std::uint32_t seed_;
     const Table& table_;
-    std::array<std::array<float, kRotations>, kReplicates> rotations_;
+    std::array<std::array<float, kDimensions>, kReplicates> rotations_;
 };
 
 /// The numbers at one bounce of the path that `key` names, in order.

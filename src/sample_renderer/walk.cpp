@@ -73,7 +73,7 @@ PathVertex arrive(const LitScene& lit, const Walk& walk, const Ray& ray, const H
     else
         vertex.bsdf = bsdf_at(lit.scene, hit.point, hit.front);
 
-    // From densities over solid angle to those over area; a sun's are over area already.
+    // From densities over solid angle to those over area; from infinity they are that already.
     constexpr float kLeast = 1e-30f;
     const Vec3 way = vertex.place.position - walk.position;
     const float squared = walk.parallel ? 1.0f : std::max(glm::dot(way, way), kLeast);
@@ -89,14 +89,25 @@ PathVertex arrive(const LitScene& lit, const Walk& walk, const Ray& ray, const H
     return vertex;
 }
 
-void follow_walks(const LitScene& lit, WalkWave& wave, const MeetsVertex& meets) {
+Trail trail_at_sky(const Walk& walk, Vec3 direction) {
+    Trail trail = walk.trail;
+    trail.density = walk.pdf;
+    trail.to_before = std::abs(glm::dot(walk.normal, direction));
+    return trail;
+}
+
+void follow_walks(const LitScene& lit, WalkWave& wave, const MeetsVertex& meets,
+                  const LeavesScene& leaves) {
     while (!wave.walks.empty()) {
         std::size_t alive = 0;
         for (std::size_t i = 0; i < wave.walks.size(); ++i) {
             const Hit& hit = wave.hits[i];
-            if (!hit) continue;
             Walk& walk = wave.walks[i];
             Ray& ray = wave.rays[i];
+            if (!hit) {
+                leaves(walk, ray);
+                continue;
+            }
             const MetSurface surface = describe(lit, hit);
             const PathVertex vertex = arrive(lit, walk, ray, hit, surface);
             BounceNumbers numbers(walk.key, walk.steps);
@@ -128,11 +139,11 @@ Walk walk_from_light(const Emission& emission) {
                  .pdf = emission.direction,
                  .position = emission.position,
                  .normal = emission.normal,
-                 .parallel = emission.parallel,
+                 .parallel = emission.parallel(),
                  .transport = Transport::importance,
                  .emission = &emission};
     walk.trail.density_before = emission.start;
-    walk.trail.ends_earlier = emission.solid ? 1.0f : 0.0f;
+    walk.trail.ends_earlier = emission.solid() ? 1.0f : 0.0f;
     return walk;
 }
 

@@ -16,7 +16,7 @@ struct Walk {
     float pdf;              // of the ray's direction over solid angle
     Trail trail;            // as going_on() makes it
     Vec3 position, normal;  // of the vertex, or of the light; the real plane's, or 0
-    bool parallel = false;  // it comes from a sun: `pdf` is over area across the ray
+    bool parallel = false;  // from infinitely far: `pdf` is over area across the ray
     Transport transport = Transport::radiance;
     const Emission* emission = nullptr;  // that it begins with, on its first edge
     std::uint32_t sample = 0;            // which sample of the wave it belongs to
@@ -40,6 +40,9 @@ struct WalkWave {
 PathVertex arrive(const LitScene& lit, const Walk& walk, const Ray& ray, const Hit& hit,
                   const MetSurface& surface);
 
+/// Its trail where it left the scene along `direction`, for what shines there.
+Trail trail_at_sky(const Walk& walk, Vec3 direction);
+
 /// What a walk met, before it is scattered there.
 struct WalkMeeting {
     const Walk& walk;
@@ -51,10 +54,15 @@ struct WalkMeeting {
 /// Called with the walk's numbers at the place: those that are taken are taken before its own.
 using MeetsVertex = std::function<void(const WalkMeeting&, BounceNumbers&)>;
 
+/// Called for a walk that left the scene.
+using LeavesScene = std::function<void(const Walk&, const Ray&)>;
+
 /// Follows all walks to their ends, at what the wave's rays have hit to begin with: calls
-/// `meets` at every surface. Russian roulette as of paths, no other bound on their length. A walk
-/// that passes a smooth pane straight on is still on the same edge.
-void follow_walks(const LitScene& lit, WalkWave& wave, const MeetsVertex& meets);
+/// `meets` at every surface, `leaves` at the end of those that leave the scene. Russian roulette as
+/// of paths, no other bound on their length. A walk that passes a smooth pane straight on is still
+/// on the same edge.
+void follow_walks(const LitScene& lit, WalkWave& wave, const MeetsVertex& meets,
+                  const LeavesScene& leaves);
 
 /// The walk from the eye's end along a direction of density cosine / pi that `u`, in [0, 1)^2,
 /// maps to.

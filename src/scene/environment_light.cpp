@@ -158,7 +158,7 @@ float EnvironmentLight::pdf_of_weight(float weight, int row, float sine) const {
     return weight * row_factors_[row + 1] / std::max(sine, 1e-7f);
 }
 
-std::optional<EnvironmentSample> EnvironmentLight::sample_map(const LitPlace& place, Vec2 u) const {
+std::optional<EnvironmentSample> EnvironmentLight::sample_map(Vec2 u) const {
     // A place in the cell, its weight interpolated.
     const Image& map = environment_->map;
     const auto [cell, w] = choose_cell(u);
@@ -173,7 +173,6 @@ std::optional<EnvironmentSample> EnvironmentLight::sample_map(const LitPlace& pl
         (static_cast<float>(cell.column) + 0.5f + within.x) / static_cast<float>(map.width),
         glm::mix(begin, end, within.y) * (1 / kPi));
     const Vec3 direction = frame_.direction_of(in_map);
-    if (!(glm::dot(direction, place.normal) > 0)) return std::nullopt;
 
     const CellCorners c = corners_of(map, cell);
     const float weight =
@@ -187,7 +186,10 @@ std::optional<EnvironmentSample> EnvironmentLight::sample_map(const LitPlace& pl
 
 std::optional<EnvironmentSample> EnvironmentLight::sample(const LitPlace& place, Vec2 u) const {
     check(!empty_, "EnvironmentLight: nothing to sample");
-    if (environment_->has_map()) return sample_map(place, u);
+    if (environment_->has_map()) {
+        const auto found = sample_map(u);
+        return found && glm::dot(found->direction, place.normal) > 0 ? found : std::nullopt;
+    }
     const Vec3 direction = cosine_direction(u);
     if (!(direction.z > 0)) return std::nullopt;
     return EnvironmentSample{Frame(place.normal).to_world(direction), environment_->sky,
@@ -198,6 +200,25 @@ float EnvironmentLight::pdf(const LitPlace& place, Vec3 direction) const {
     if (empty_) return 0;
     if (!environment_->has_map())
         return std::max(0.0f, glm::dot(place.normal, direction)) * (1 / kPi);
+    return pdf_of_map(direction);
+}
+
+std::optional<EnvironmentSample> EnvironmentLight::sample_anywhere(Vec2 u) const {
+    check(!empty_, "EnvironmentLight: nothing to sample");
+    if (environment_->has_map()) return sample_map(u);
+    const float z = 1 - 2 * u.x, azimuth = 2 * kPi * u.y;
+    const float radius = std::sqrt(std::max(0.0f, 1 - z * z));
+    return EnvironmentSample{{radius * std::cos(azimuth), radius * std::sin(azimuth), z},
+                             environment_->sky,
+                             pdf_anywhere({0, 0, 1})};
+}
+
+float EnvironmentLight::pdf_anywhere(Vec3 direction) const {
+    if (empty_) return 0;
+    return environment_->has_map() ? pdf_of_map(direction) : 1 / (4 * kPi);
+}
+
+float EnvironmentLight::pdf_of_map(Vec3 direction) const {
     const MapPlace p = place_in(environment_->map, frame_.place_of(direction));
     const Corners w = weights_of(p.cell);
     const float weight =

@@ -46,6 +46,11 @@ public:
     /// plane of `place`.
     float pdf(const LitPlace& place, Vec3 direction) const;
 
+    /// As these, whatever the place: a direction that light comes from, even over all where there
+    /// is one radiance everywhere.
+    std::optional<EnvironmentSample> sample_anywhere(Vec2 u) const;
+    float pdf_anywhere(Vec3 direction) const;
+
 private:
     // What samples of a cell are chosen by: its corners' weights.
     struct Corners {
@@ -61,7 +66,8 @@ private:
     void build_tables();
     Corners weights_of(MapCell cell) const;
     ChosenCell choose_cell(Vec2& u) const;
-    std::optional<EnvironmentSample> sample_map(const LitPlace& place, Vec2 u) const;
+    std::optional<EnvironmentSample> sample_map(Vec2 u) const;
+    float pdf_of_map(Vec3 direction) const;
     float pdf_of_weight(float weight, int row, float sine) const;
 
     const Environment* environment_;
