@@ -11,6 +11,7 @@ namespace chiaro {
 namespace {
 
 using tiny::Meter;
+using tiny::Truth;
 
 std::vector<ShadeRequest> many_requests(const Meter& meter, std::size_t count) {
     std::vector<ShadeRequest> requests;
@@ -60,8 +61,10 @@ void expect_same_bits_anyhow(Meter& meter) {
 }
 
 TEST(Reproducible, AnyThreadsAnyBatch) {
-    Meter meter(tiny::cornell_box());
-    expect_same_bits_anyhow(meter);
+    for (const Truth by : tiny::kTruths) {
+        Meter meter(tiny::cornell_box(), by);
+        expect_same_bits_anyhow(meter);
+    }
 }
 
 // With lights of every kind, more of them than are asked one by one, and panes in their way.
@@ -81,24 +84,28 @@ TEST(Reproducible, AnyThreadsAnyBatchWithLightsAndPanes) {
         scene.materials[index_of(pane)].double_sided = false;
         tiny::add_quad(scene, {0, 1.3f * float(i), 0.5f}, {5, 0, 0}, {0, 0.3f, 4}, pane);
     }
-    Meter meter(std::move(scene));
-    expect_same_bits_anyhow(meter);
+    for (const Truth by : tiny::kTruths) {
+        Meter meter(scene, by);
+        expect_same_bits_anyhow(meter);
+    }
 }
 
 // [0, 32) and [32, 64), averaged, are [0, 64); of `total` both parts continue.
 TEST(Reproducible, SamplesContinue) {
-    Meter meter(tiny::cornell_box());
-    for (ShadeRequest request : many_requests(meter, 90)) {
-        request.first_sample = 0;
-        request.samples = 64;
-        request.indirect_samples = 256;
-        ShadeRequest first = request, second = request;
-        first.samples = second.samples = second.first_sample = 32;
-        first.indirect_samples = second.indirect_samples = 128;
-        const auto results = meter.shade({request, first, second});
-        const Rgb halves = 0.5f * (results[1].mean + results[2].mean);
-        for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(halves[c], results[0].mean[c], 1e-5f * (1 + results[0].mean[c]));
+    for (const Truth by : tiny::kTruths) {
+        Meter meter(tiny::cornell_box(), by);
+        for (ShadeRequest request : many_requests(meter, 90)) {
+            request.first_sample = 0;
+            request.samples = 64;
+            request.indirect_samples = 256;
+            ShadeRequest first = request, second = request;
+            first.samples = second.samples = second.first_sample = 32;
+            first.indirect_samples = second.indirect_samples = 128;
+            const auto results = meter.shade({request, first, second});
+            const Rgb halves = 0.5f * (results[1].mean + results[2].mean);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(halves[c], results[0].mean[c], 1e-5f * (1 + results[0].mean[c]));
+        }
     }
 }
 
@@ -114,14 +121,15 @@ TEST(Reproducible, SeedsDiffer) {
 // Estimated over actual variance of the mean after `batches` of 64 samples, over 600 seeds, at a
 // few places and of each kind of light. Batches continue one another and are merged as independent
 // ones, as the Shading Cache does it.
-std::vector<double> variance_ratios(Meter& meter, std::uint32_t batches) {
+std::vector<double> variance_ratios(Meter& meter, std::span<const Light> lights,
+                                    std::uint32_t batches) {
     constexpr std::uint32_t kSeeds = 600;
     const double part = 1.0 / batches;
     const Vec3 looks[] = {{0.1f, -1, 0.6f}, {1, 0.1f, 0.7f}, {-0.2f, 0.2f, 1}};
     std::vector<double> ratios;
     for (const Vec3 look : looks) {
         const Hit hit = meter.look({2.78f, 2.7f, 0.2f}, look);
-        for (const Light light : {Light::direct, Light::indirect, Light::total}) {
+        for (const Light light : lights) {
             std::vector<ShadeRequest> requests;
             for (std::uint32_t seed = 0; seed < kSeeds; ++seed)
                 for (std::uint32_t batch = 0; batch < batches; ++batch)
@@ -155,11 +163,15 @@ std::vector<double> variance_ratios(Meter& meter, std::uint32_t batches) {
 // sequence are spread better than independent ones, up to 2.6 times here. Standard error of a ratio
 // 0.08, of the largest 0.25; bounds at least 5 of them, false alarm 6e-7 a ratio.
 TEST(Reproducible, VarianceIsHonest) {
+    const Light lights[] = {Light::direct, Light::indirect, Light::total};
+    Meter joined(tiny::cornell_box(), Truth::bidirectional);
+    for (const double ratio : variance_ratios(joined, std::span(lights).subspan(1, 1), 1))
+        EXPECT_NEAR(ratio, 1, 0.45);
     Meter meter(tiny::cornell_box());
-    const auto one = variance_ratios(meter, 1);
+    const auto one = variance_ratios(meter, lights, 1);
     EXPECT_EQ(one.size(), 9u);
     for (const double ratio : one) EXPECT_NEAR(ratio, 1, 0.45);
-    const auto merged = variance_ratios(meter, 8);
+    const auto merged = variance_ratios(meter, lights, 8);
     EXPECT_EQ(merged.size(), 9u);
     for (const double ratio : merged) {
         EXPECT_GT(ratio, 0.6);
@@ -169,13 +181,13 @@ TEST(Reproducible, VarianceIsHonest) {
 
 // Under a box whose outside was seen, a point of the floor is buried; beside it, it is not, and
 // without the knowledge nothing is.
-TEST(Buried, InsideABoxWhoseOutsideWasSeen) {
+void expect_buried(Truth by) {
     Scene scene;
     const MaterialId white = tiny::add_material(scene, Rgb(0.8f));
     tiny::add_room(scene, Vec3(-2), Vec3(2), white);
     tiny::add_box(scene, {-1, -1, -2.1f}, {0, 0, -1}, white);
     scene.lights.push_back(tiny::point_light({1, 1, 1}, Rgb(100)));
-    Meter meter(scene);
+    Meter meter(scene, by);
     const auto floor_point = [&](Vec2 where) {
         // Face 0 of the room is z = -2 with u along y and v along x, wound inward: find it by
         // search.
@@ -199,6 +211,10 @@ TEST(Buried, InsideABoxWhoseOutsideWasSeen) {
         EXPECT_TRUE(buried(under, light)) << int(light);
         EXPECT_FALSE(buried(beside, light)) << int(light);
     }
+}
+
+TEST(Buried, InsideABoxWhoseOutsideWasSeen) {
+    for (const Truth by : tiny::kTruths) expect_buried(by);
 }
 
 // The far side of a room's wall is open to rays that go nowhere: not buried, and dark.
