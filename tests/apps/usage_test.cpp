@@ -66,7 +66,6 @@ TEST(Usage, EachWrongOptionOfAPictureIsNamed) {
         {"--time", "nan"},
         {"--time", "soon"},
         {"--renderer", "magic"},
-        {"--renderer", "bidirectional"},
         {"--seed", "-1"},
         {"--seed", "x"},
         {"--exposure", "nan"},

@@ -1,7 +1,7 @@
 // The renderer `bidirectional` against `path`, which finds by fewer ways what both find.
 #include "sample_renderer/bidirectional_renderer.h"
 
-#include "sample_renderer/glossy_scenes.h"
+#include "sample_renderer/ball.h"
 #include "sample_renderer/meter.h"
 
 #include <gtest/gtest.h>

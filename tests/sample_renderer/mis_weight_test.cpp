@@ -1,5 +1,5 @@
 // The weights of all the ways in which two walks can find one path sum to 1.
-#include "sample_renderer/glossy_scenes.h"
+#include "sample_renderer/ball.h"
 #include "sample_renderer/join.h"
 #include "sample_renderer/meter.h"
 #include "sample_renderer/walk.h"

@@ -1,4 +1,4 @@
-// Materials of tiny scenes that are not diffuse.
+// A surface whose normals lean from its planes everywhere.
 #pragma once
 
 #include "sample_renderer/tiny_scenes.h"
@@ -6,25 +6,6 @@
 #include <cmath>
 
 namespace chiaro::tiny {
-
-inline Gloss metal(float roughness) {
-    return {.model = GlossModel::metallic_roughness, .metallic = 1, .roughness = roughness};
-}
-inline Gloss plastic(float roughness) {
-    return {.model = GlossModel::metallic_roughness, .metallic = 0, .roughness = roughness};
-}
-inline Gloss glass(float roughness, bool thin) {
-    return {.model = GlossModel::metallic_roughness,
-            .roughness = roughness,
-            .transmission = 1,
-            .thin = thin};
-}
-
-inline MaterialId add_glossy(Scene& scene, Rgb base_color, const Gloss& gloss) {
-    const MaterialId id = add_material(scene, base_color);
-    scene.materials[index_of(id)].gloss = gloss;
-    return id;
-}
 
 /// A ball of 24 x 12 quads that its normals make look round.
 inline ObjectId add_ball(Scene& scene, Vec3 centre, float radius, MaterialId material) {
