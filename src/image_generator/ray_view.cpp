@@ -2,7 +2,6 @@
 
 #include "base/parallel.h"
 #include "image_generator/view_fragments.h"
-#include "shading_cache/interpolate.h"
 
 #include <algorithm>
 
@@ -81,8 +80,10 @@ SeenRow refine_row(const Viewing& viewing, int y, const SeenRow& coarse,
 }
 
 // Puts what was seen on root patches, in the order of pixels.
-IdMap put_on_roots(ShadingCache& cache, const std::vector<SeenRow>& rows, const View& view) {
+IdMap put_on_roots(ShadingCache& cache, const std::vector<SeenRow>& rows, const View& view,
+                   Aov aov) {
     IdMap map;
+    map.irradiance = aov == Aov::irradiance;
     map.width = view.width();
     map.height = view.height();
     map.background = Image(view.width(), view.height());
@@ -98,10 +99,12 @@ IdMap put_on_roots(ShadingCache& cache, const std::vector<SeenRow>& rows, const 
             map.background.pixels[pixel] = rows[y].background[x];
             for (; piece != rows[y].pieces.end() && piece->x == static_cast<std::uint32_t>(x);
                  ++piece) {
-                if (piece->reflectance == Rgb(0)) continue;
-                map.fragments.push_back(
-                    {pixel, cache.root(piece->point.object, piece->point.primitive, piece->front),
-                     Vec2(piece->point.u, piece->point.v), piece->reflectance});
+                const SurfacePoint& at = piece->point;
+                if (piece->glint != Rgb(0))
+                    map.glints.push_back({pixel, at, piece->front, piece->seen_from, piece->glint});
+                if (piece->reflectance == Rgb(0) && piece->gloss == Rgb(0)) continue;
+                map.fragments.push_back({pixel, cache.root(at.object, at.primitive, piece->front),
+                                         Vec2(at.u, at.v), piece->reflectance, piece->gloss});
             }
         }
     }
@@ -132,7 +135,7 @@ IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
         });
         rows = std::move(finer);
     }
-    return put_on_roots(cache, rows, view);
+    return put_on_roots(cache, rows, view, settings.aov);
 }
 
 Image draw(const ShadingCache& cache, const IdMap& map, int threads) {
@@ -141,7 +144,7 @@ Image draw(const ShadingCache& cache, const IdMap& map, int threads) {
         const std::size_t first = y * static_cast<std::size_t>(map.width);
         for (std::size_t p = first; p < first + static_cast<std::size_t>(map.width); ++p)
             for (const Fragment& f : map.at_pixel(static_cast<std::uint32_t>(p)))
-                picture.pixels[p] += f.reflectance * irradiance_at(cache, f.patch, f.local);
+                picture.pixels[p] += shown_by(cache, f);
     });
     return picture;
 }

@@ -26,16 +26,22 @@ struct RayViewSettings {
     ViewQuality quality = ViewQuality::antialiased;
     Aov aov = Aov::radiance;
     int threads = 1;
+    /// Facets of at least this width (Bsdf::alpha), seen straight or through panes, show the
+    /// cache's glossy radiance; what narrower ones show is found by rays.
+    float cached_facets = kInfinity;
 };
 
 /// The fragments that `view` shows, each on the root patch that holds it (made if new); attach()
 /// hands them down to the leaves. Single-sided faces are passed from behind; blended surfaces are
 /// composited front to back, the nearest kMostLayers (rays/ray_caster.h) on a ray's way; those
-/// behind them do not show. Marks in `open_sides` what was seen, unless it is null.
+/// behind them do not show. Mirrors and glass show what is seen in them, and polish shows it by
+/// chance (specular_chains.h); what that shows of lights is left to whoever has light samples, as
+/// the map's glints. A picture of irradiance shows surfaces alone. Marks in `open_sides` what was
+/// seen, unless it is null.
 IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
                   const RayViewSettings& settings, OpenSides* open_sides);
 
-/// The picture of an attached map: interpolated irradiance times reflectance, over the background.
+/// The picture of an attached map: what its fragments show, over the background.
 Image draw(const ShadingCache& cache, const IdMap& map, int threads);
 
 }  // namespace chiaro

@@ -18,6 +18,7 @@ struct Way {
     Rgb left;  // of the camera ray's radiance
     float distance;
     float index2;
+    bool after_chance;  // and nothing but panes since
 };
 struct Wave {
     std::vector<Ray> rays;
@@ -58,7 +59,10 @@ void Chains::add(RayKind kind, const Sighting& at, const Scattering& s, Step ste
     const float side = passes ? -lift : lift;
     Wave& wave = kind == RayKind::camera ? next.camera : next.transport;
     wave.rays.push_back({position + side * s.geometric_normal, direction});
-    wave.ways.push_back({at.looking, longer(at.trail, step), left / part, at.distance, index2});
+    const bool after_chance =
+        step == Step::scattered || (step == Step::transmitted && s.bsdf.thin && at.after_chance);
+    wave.ways.push_back(
+        {at.looking, longer(at.trail, step), left / part, at.distance, index2, after_chance});
 }
 
 // Where facets lead by chance. The rays of a pixel share a sequence where it matters most: at the
@@ -104,9 +108,13 @@ void Chains::go_on(RayKind kind, Sighting& at, Vec3 direction, bool last) {
         add(RayKind::transport, at, s, Step::reflected, parts.reflected_from, parts.reflected);
         add(bsdf.thin ? kind : RayKind::transport, at, s, Step::transmitted, parts.transmitted_from,
             parts.transmitted);
-    } else if (at.trail != 0 || bsdf.alpha < settings.cached_from) {
+    } else if (kind == RayKind::camera && bsdf.alpha >= settings.cached_facets) {
+        at.cached_gloss = true;
+    } else {
         s.bsdf = specular_only(bsdf);
-        at.by_chance = luminance(total_albedo(s.bsdf, at.cosine));
+        const float albedo = luminance(total_albedo(s.bsdf, at.cosine));
+        if (max_component(at.weight) * albedo < kLeastLeft * looking[at.looking].part) return;
+        at.by_chance = albedo;
         if (!last) scatter(at, s);
     }
 }
@@ -118,6 +126,7 @@ Sighting Chains::make_sighting(const Way& way, float part) const {
     at.weight = way.left * (looking[way.looking].part * part);
     at.distance = way.distance;
     at.index2 = way.index2;
+    at.after_chance = way.after_chance;
     return at;
 }
 
@@ -137,13 +146,15 @@ void Chains::see(RayKind kind, const Wave& wave, bool last, std::vector<Sighting
             at.hit = layer->hit;
             at.position = ray.origin + at.hit.t * ray.direction;
             at.distance += at.hit.t;
+            at.seen_from = ray.origin;
             if (settings.chains) {
-                at.light = at.weight * emission(scene, at.hit.point, at.hit.front);
+                if (!at.after_chance)
+                    at.light = at.weight * emission(scene, at.hit.point, at.hit.front);
                 go_on(kind, at, ray.direction, last);
             }
             found.push_back(at);
         }
-        if (left < kLeastPart || !environment) continue;
+        if (left < kLeastPart || !environment || wave.ways[i].after_chance) continue;
         Sighting beyond = make_sighting(wave.ways[i], left);
         beyond.light = beyond.weight * radiance_from(scene.environment, frame, ray.direction);
         found.push_back(beyond);
@@ -161,7 +172,7 @@ void look(const RayCaster& rays, std::span<const Looking> looking, const ChainSe
     waves.camera.ways.reserve(looking.size());
     for (std::uint32_t i = 0; i < looking.size(); ++i) {
         waves.camera.rays.push_back(looking[i].ray);
-        waves.camera.ways.push_back({i, 0, Rgb(1), 0, 1});
+        waves.camera.ways.push_back({i, 0, Rgb(1), 0, 1, false});
     }
     const bool environment = settings.chains && !is_dark(rays.scene().environment);
     Chains chains{rays, looking, settings, environment};

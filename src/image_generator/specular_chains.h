@@ -47,15 +47,19 @@ struct Sighting {
     float cosine = 1;      // of its shading normal to where it is seen from
     Rgb diffuse = Rgb(0);  // diffuse_albedo() toward there
     float index2 = 1;      // squared index of the glass that it is seen within
-    float by_chance = 0;   // luminance, over white's, of what is seen in it and found by chance
+    // What is seen in its rough facets: the cache's, or else found by chance, and how much of white
+    // surroundings that would be (luminance). Lights are left out of it: glints show these.
+    bool cached_gloss = false;
+    float by_chance = 0;
+    bool after_chance =
+        false;  // seen in such facets, straight or through panes: its light is theirs
+    Vec3 seen_from = Vec3(0);  // a place on the ray that met it
 };
 
 struct ChainSettings {
     bool chains = true;  // false: surfaces seen straight alone, not what they look like or emit
     int directions = 1;  // by chance, where a chain first meets polish that is not perfect
-    /// Facets of at least this width (Bsdf::alpha), seen straight, have what they reflect from
-    /// elsewhere.
-    float cached_from = 2;
+    float cached_facets = kInfinity;  // as RayViewSettings has it
 };
 
 /// Everything that the rays show; replaces `found`, the surfaces seen straight first and ray by

@@ -28,6 +28,9 @@ SeenPiece make_piece(const Sighting& s, std::uint32_t x, Aov aov) {
     piece.point = s.hit.point;
     piece.front = s.hit.front;
     piece.reflectance = aov == Aov::irradiance ? s.weight : s.weight * s.diffuse * (1 / kPi);
+    if (s.cached_gloss) piece.gloss = s.weight;
+    if (s.by_chance > 0) piece.glint = s.weight;
+    piece.seen_from = s.seen_from;
     piece.trail = s.trail;
     piece.weight = s.weight;
     piece.cosine = s.cosine;
@@ -60,6 +63,8 @@ struct PixelPieces {
             known.point.v += share * (piece.point.v - known.point.v);
             position += share * (s.position - position);
             known.reflectance += piece.reflectance;
+            known.gloss += piece.gloss;
+            known.glint += piece.glint;
             parts[i - first] += part;
             return;
         }
@@ -113,6 +118,7 @@ Viewing make_viewing(const RayCaster& rays, const View& view, const RayViewSetti
     const float y = 0.5f * static_cast<float>(view.height());
     ChainSettings chains;
     chains.chains = settings.aov == Aov::radiance;
+    chains.cached_facets = settings.cached_facets;
     return {rays, view, settings.aov, chains,
             glm::length(view.ray(x + 1, y).direction - view.ray(x, y).direction)};
 }

@@ -13,10 +13,13 @@ struct SeenPiece {
     std::uint32_t x = 0;  // pixel in the row
     SurfacePoint point;   // mean place of the rays that met it
     bool front = true;
-    Rgb reflectance = Rgb(0);  // as Fragment::reflectance
-    Trail trail = 0;           // by which the surface is seen
-    Rgb weight = Rgb(0);       // as Sighting::weight
-    float cosine = 1;          // as Sighting::cosine
+    Rgb reflectance = Rgb(0);  // as Fragment has them
+    Rgb gloss = Rgb(0);
+    Rgb glint = Rgb(0);  // as Glint has them; black: it is none
+    Vec3 seen_from = Vec3(0);
+    Trail trail = 0;      // by which the surface is seen
+    Rgb weight = Rgb(0);  // as Sighting::weight
+    float cosine = 1;     // as Sighting::cosine
 };
 
 struct SeenRow {

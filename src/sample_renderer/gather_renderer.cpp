@@ -108,7 +108,8 @@ std::optional<CellKey> cell_met(const IrradianceCells& cells, const Hit& hit, co
                    jitter);
 }
 
-// The indirect part of a request by rays that end in cells; appends to `asking`.
+// The indirect part of a request, or a glossy request, by rays that end in cells; appends to
+// `asking`.
 TaskResult gather(const LitScene& lit, IndirectOptions options, const IrradianceCells& cells,
                   const Receiver& receiver, const Task& task, const ShadeRequest& request,
                   Scratch& scratch, std::vector<Asking>& asking) {
@@ -132,10 +133,17 @@ TaskResult gather(const LitScene& lit, IndirectOptions options, const Irradiance
         return true;
     };
     options.ends_at = &ends_at;
-    result.rays = add_indirect_samples(lit, receiver, hash32(request.seed, kIndirectSalt),
-                                       task.first, task.count, scratch.wave, result.sums, options);
-    for (std::uint32_t r = 0; r < kReplicates; ++r) result.sums[r] += kPi * ended[r];
-    result.shared_variance = kPi * kPi * scratch.shares.variance(cells);
+    float scale = 1;
+    if (task.light == Light::indirect) {
+        scale = kPi;
+        result.rays =
+            add_indirect_samples(lit, receiver, hash32(request.seed, kIndirectSalt), task.first,
+                                 task.count, scratch.wave, result.sums, options);
+    } else {
+        result = run_glossy(lit, task, request, scratch.wave, &ends_at);
+    }
+    for (std::uint32_t r = 0; r < kReplicates; ++r) result.sums[r] += scale * ended[r];
+    result.shared_variance = scale * scale * scratch.shares.variance(cells);
     return result;
 }
 
@@ -244,17 +252,18 @@ void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<Sha
         // A batch of tasks against the cells as they are.
         std::size_t end = begin;
         for (std::uint32_t samples = 0; end < tasks.size() && samples < kBatchSamples; ++end)
-            samples += tasks[end].direct ? 0 : tasks[end].count;
+            samples += tasks[end].light == Light::direct ? 0 : tasks[end].count;
         std::vector<std::vector<Asking>> asked(end - begin);
         parallel_for(threads_, end - begin, [&](std::size_t i) {
             thread_local Scratch scratch;
             const Task& task = tasks[begin + i];
             const ShadeRequest& request = requests[task.request];
             const Receiver receiver = request_receiver(lit_, request);
-            parts[begin + i] =
-                task.direct
-                    ? run_direct(lit_, open_sides_, receiver, task, request, scratch.wave)
-                    : gather(lit_, options, cells_, receiver, task, request, scratch, asked[i]);
+            TaskResult& part = parts[begin + i];
+            part = task.light == Light::direct
+                       ? run_direct(lit_, receiver, task, request, scratch.wave)
+                       : gather(lit_, options, cells_, receiver, task, request, scratch, asked[i]);
+            probe_if_dark(lit_, open_sides_, receiver, task, request, scratch.wave, part);
         });
 
         // What it asked for, in the order of tasks.

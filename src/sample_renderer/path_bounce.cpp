@@ -183,12 +183,15 @@ bool scatter(const Bounce& here, Path& path, Ray& ray) {
     }
 
     const float roulette = numbers.next(), lobe = numbers.next();
-    const auto sample = sample_scattering(surface, lobe, numbers.next_pair());
+    const bool chosen = here.number == 0 && path.direction;
+    const Vec2 direction = chosen ? *path.direction : numbers.next_pair();
+    const auto sample = sample_scattering(surface, lobe, direction);
     if (!sample) return false;
     path.throughput *= sample->weight;
     go_on(here, bsdf, *sample, path, ray);
     if (!(max_component(path.throughput) > 0)) return false;
-    return (sample->delta() && here.number < kSureBounces) || survives(roulette, path);
+    const bool sure = chosen || (sample->delta() && here.number < kSureBounces);
+    return sure || survives(roulette, path);
 }
 
 }  // namespace chiaro

@@ -18,8 +18,9 @@ struct Path {
     std::uint32_t key = 0;   // names its random numbers after the first hit's
     Vec2 light_place = {};   // at the first hit: where on a light,
     float light_choice = 0;  // which of each kind of light,
-    Vec2 sky_place = {};     // and where in the environment
-    Vec3 normal = Vec3(0);   // LitPlace's, where the ray started; after the first hit
+    Vec2 sky_place = {};     // and where in the environment;
+    std::optional<Vec2> direction = std::nullopt;  // where it surely goes on, if that is chosen yet
+    Vec3 normal = Vec3(0);     // LitPlace's, where the ray started; after the first hit
     float roulette_scale = 1;  // of the throughput, for survival: what is small because radiance in
                                // glass is dense, or because of a weight, is worth following
     bool first = true;         // it is still on its first ray, though that may have passed panes

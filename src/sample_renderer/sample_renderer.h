@@ -9,11 +9,14 @@
 
 namespace chiaro {
 
-/// What part of the light a channel holds; all are irradiance [lux a colour channel].
+/// What part of the light a channel holds: irradiance [lux a colour channel], or radiance toward an
+/// eye [cd/m2 a colour channel] by all that a surface does but diffuse reflection.
 enum class Light : std::uint8_t {
     direct,    // straight from lights
     indirect,  // after at least one reflection
     total,     // both: the single channel of the paper's scheme
+    glossy,    // radiance, of all light
+    glint,     // radiance, of light straight from lights
 };
 
 /// A place in space that light is measured at, as by a lux meter: it need not lie on a surface.
@@ -32,6 +35,7 @@ struct ShadeRequest {
     bool front = true;        // which side of the surface
     std::optional<MeterPlace> place = std::nullopt;  // instead of these
     Light light = Light::direct;
+    Vec3 eye = Vec3(0);      // `glossy` and `glint`: where the surface is seen from, world space
     std::uint32_t seed = 0;  // of the vertex and channel; equal seeds mean equal random numbers
     std::uint32_t first_sample = 0;
     std::uint32_t samples = 0;  // > 0, a multiple of kReplicates
@@ -45,8 +49,8 @@ inline constexpr std::uint32_t kReplicates = 4;
 
 /// Mean over the requested samples.
 struct ShadeResult {
-    Rgb mean = Rgb(0);      // irradiance [lux a channel]
-    Rgb variance = Rgb(0);  // of `mean` [lux^2 a channel], estimated from the replicates: 0 where
+    Rgb mean = Rgb(0);      // irradiance or radiance
+    Rgb variance = Rgb(0);  // of `mean`, estimated from the replicates: 0 where
                             // they agree, as when all of them missed what is rare
     bool buried = false;    // most rays met the inside of something: the point lies in a solid
 };
@@ -62,6 +66,7 @@ inline float luminance_variance(Rgb variance) {
 struct SampleCosts {
     float direct;
     float indirect;
+    float glossy = 1e-6f;
 };
 
 /// The one seam. To be called from the update thread only; it spreads its own work.

@@ -12,13 +12,13 @@ constexpr std::uint32_t kTaskSamples = 1024;  // a wave: large enough for packet
 constexpr std::uint32_t kProbeRays = 16;
 constexpr std::size_t kTasksPerBody = 8;
 
-void add_tasks(std::uint32_t request, bool direct, std::uint32_t first, std::uint32_t count,
+void add_tasks(std::uint32_t request, Light light, std::uint32_t first, std::uint32_t count,
                std::vector<Task>& tasks) {
     check(count > 0 && count % kReplicates == 0,
           "shade: samples must be a multiple of kReplicates");
     for (std::uint32_t done = 0; done < count; done += kTaskSamples)
         tasks.push_back(
-            {request, direct, first + done, std::min(kTaskSamples, count - done), done == 0});
+            {request, light, first + done, std::min(kTaskSamples, count - done), done == 0});
 }
 
 // Means of the replicates, over all tasks of one request: direct and indirect light of one
@@ -30,7 +30,7 @@ ShadeResult combine_one(const ShadeRequest& request, std::span<const Task> tasks
     RayCount rays;
     double shared = 0;
     for (std::size_t t = 0; t < tasks.size(); ++t) {
-        const bool second = request.light == Light::total && !tasks[t].direct;
+        const bool second = request.light == Light::total && tasks[t].light == Light::indirect;
         const double share =
             kReplicates / double(second ? request.indirect_samples : request.samples);
         for (std::uint32_t r = 0; r < kReplicates; ++r)
@@ -59,11 +59,12 @@ std::vector<Task> split_into_tasks(std::span<const ShadeRequest> requests) {
     tasks.reserve(requests.size());
     for (std::uint32_t i = 0; i < requests.size(); ++i) {
         const ShadeRequest& r = requests[i];
-        if (r.light != Light::indirect) add_tasks(i, true, r.first_sample, r.samples, tasks);
-        if (r.light == Light::indirect) add_tasks(i, false, r.first_sample, r.samples, tasks);
+        const Light first = r.light == Light::total ? Light::direct : r.light;
+        add_tasks(i, first, r.first_sample, r.samples, tasks);
         if (r.light == Light::total) {
             const auto before = std::uint64_t{r.first_sample} * r.indirect_samples / r.samples;
-            add_tasks(i, false, static_cast<std::uint32_t>(before), r.indirect_samples, tasks);
+            add_tasks(i, Light::indirect, static_cast<std::uint32_t>(before), r.indirect_samples,
+                      tasks);
         }
     }
     return tasks;
@@ -80,20 +81,37 @@ Receiver request_receiver(const LitScene& lit, const ShadeRequest& request) {
                          side * g.shading_normal);
 }
 
-TaskResult run_direct(const LitScene& lit, const OpenSides* open_sides, const Receiver& receiver,
-                      const Task& task, const ShadeRequest& request, PathWave& scratch) {
+TaskResult run_direct(const LitScene& lit, const Receiver& receiver, const Task& task,
+                      const ShadeRequest& request, PathWave& scratch) {
     const std::uint32_t seed = hash32(request.seed, kDirectSalt);
     TaskResult result;
     if (task.starts) result.exact = exact_direct_light(lit, receiver, scratch);
     if (!direct_light_is_exact(lit))
         add_direct_samples(lit, receiver, seed, task.first, task.count, scratch, result.sums);
 
-    // A point in the dark may be buried; one that some light reaches is not.
+    return result;
+}
+
+TaskResult run_glossy(const LitScene& lit, const Task& task, const ShadeRequest& request,
+                      PathWave& scratch, const EndsAt* ends_at) {
+    TaskResult result;
+    if (task.light == Light::glint)
+        add_glint_samples(lit, request, task.first, task.count, scratch, result.sums);
+    else
+        add_glossy_samples(lit, request, task.first, task.count, scratch, result.sums, ends_at);
+    return result;
+}
+
+void probe_if_dark(const LitScene& lit, const OpenSides* open_sides, const Receiver& receiver,
+                   const Task& task, const ShadeRequest& request, PathWave& scratch,
+                   TaskResult& result) {
+    const bool asked = request.light == Light::direct || request.light == Light::glossy;
+    if (!asked || open_sides == nullptr || !task.starts) return;
     Rgb total = result.exact;
     for (const Rgb& sum : result.sums) total += sum;
-    if (open_sides != nullptr && task.starts && request.light == Light::direct && total == Rgb(0))
-        result.rays = probe(lit, *open_sides, receiver, seed, kProbeRays, scratch);
-    return result;
+    if (total == Rgb(0))
+        result.rays = probe(lit, *open_sides, receiver, hash32(request.seed, kDirectSalt),
+                            kProbeRays, scratch);
 }
 
 void combine(std::span<const ShadeRequest> requests, std::span<const Task> tasks,
@@ -121,10 +139,14 @@ void shade_requests(const LitScene& lit, const OpenSides* open_sides, int thread
         for (std::size_t t = body * kTasksPerBody; t < end; ++t) {
             const ShadeRequest& request = requests[tasks[t].request];
             const Receiver receiver = request_receiver(lit, request);
-            parts[t] = tasks[t].direct
-                           ? run_direct(lit, open_sides, receiver, tasks[t], request, scratch)
-                           : run_indirect(receiver, tasks[t], hash32(request.seed, kIndirectSalt),
-                                          scratch);
+            const std::uint32_t seed = hash32(request.seed, kIndirectSalt);
+            if (tasks[t].light == Light::direct)
+                parts[t] = run_direct(lit, receiver, tasks[t], request, scratch);
+            else if (tasks[t].light == Light::indirect)
+                parts[t] = run_indirect(receiver, tasks[t], seed, scratch);
+            else
+                parts[t] = run_glossy(lit, tasks[t], request, scratch);
+            probe_if_dark(lit, open_sides, receiver, tasks[t], request, scratch, parts[t]);
         }
     });
     combine(requests, tasks, parts, results);

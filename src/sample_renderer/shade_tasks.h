@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sample_renderer/direct_light.h"
+#include "sample_renderer/glossy_light.h"
 #include "sample_renderer/indirect_light.h"
 
 #include <functional>
@@ -16,7 +17,7 @@ inline constexpr std::uint32_t kIndirectSalt = 0x1d12ec7;
 /// A piece of a request that is computed by itself, so that neither batch nor threads show in it.
 struct Task {
     std::uint32_t request;
-    bool direct;
+    Light light;  // never `total`, which has direct and indirect tasks
     std::uint32_t first, count;
     bool starts;  // the first piece of its part of the request
 };
@@ -35,8 +36,18 @@ std::vector<Task> split_into_tasks(std::span<const ShadeRequest> requests);
 Receiver request_receiver(const LitScene& lit, const ShadeRequest& request);
 
 /// The direct part of a request, by light samples.
-TaskResult run_direct(const LitScene& lit, const OpenSides* open_sides, const Receiver& receiver,
-                      const Task& task, const ShadeRequest& request, PathWave& scratch);
+TaskResult run_direct(const LitScene& lit, const Receiver& receiver, const Task& task,
+                      const ShadeRequest& request, PathWave& scratch);
+
+/// A request for light by way of glossy surfaces. What paths end at early is not added here.
+TaskResult run_glossy(const LitScene& lit, const Task& task, const ShadeRequest& request,
+                      PathWave& scratch, const EndsAt* ends_at = nullptr);
+
+/// A point in the dark may be buried; one that some light reaches is not: looks around where direct
+/// or glossy light was asked for and not found. `open_sides` may be null.
+void probe_if_dark(const LitScene& lit, const OpenSides* open_sides, const Receiver& receiver,
+                   const Task& task, const ShadeRequest& request, PathWave& scratch,
+                   TaskResult& result);
 
 /// Computes the indirect part of a request.
 using RunIndirect = std::function<TaskResult(const Receiver& receiver, const Task& task,

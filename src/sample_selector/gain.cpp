@@ -34,7 +34,8 @@ constexpr std::uint32_t kMostSamples = 1u << 17;
 
 // What the corners say together.
 struct Corners {
-    float light = 0;        // mean luminance of all channels
+    float light = 0;        // mean luminance of all channels that hold what this one does
+    float picture = 0;      // mean luminance that the picture shows, on the curve's scale
     float low = kInfinity;  // range of the channel
     float high = -kInfinity;
     float surplus2 = 0;  // mean squared surplus of the channel
@@ -43,19 +44,21 @@ struct Corners {
     int count = 0;
 };
 
-Corners survey(const ShadingCache& cache, const Patch& patch, int channel) {
+Corners survey(const ShadingCache& cache, const Patch& patch, int channel,
+               const PictureScale& scale) {
     Corners c;
     c.count = patch.corner_count();
     c.buried = cache.buried_corners(patch);
     const float part = 1.0f / static_cast<float>(c.count);
     for (int i = 0; i < c.count; ++i) {
         const VertexId v = patch.corners[i];
-        c.light += part * luminance(cache.shown_total(v).irradiance);
-        const float value = luminance(cache.shown(v, channel).irradiance);
+        c.light += part * luminance(cache.shown_total(v, cache.shading(channel)).value);
+        c.picture += part * scale.shown(cache, patch, v);
+        const float value = luminance(cache.shown(v, channel).value);
         c.low = std::min(c.low, value);
         c.high = std::max(c.high, value);
         if (const Estimate* e = cache.estimate(v, channel); e && !cache.vertex(v).buried) {
-            const float surplus = cache.surplus(v, *e);
+            const float surplus = cache.surplus(v, channel);
             c.surplus2 += part * surplus * surplus;
             c.variance += part * e->variance;
         }
@@ -83,13 +86,14 @@ std::uint32_t samples_of_new(const ShadingCache& cache, PatchId id, int channel,
 
 Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings& settings) {
     const Patch& patch = cache.patch(id);
-    const auto fragments = static_cast<float>(patch.fragment_count);
-    if (patch.fragment_count == 0) return {};
-    const Corners corners = survey(cache, patch, channel);
+    const float pixels = cache.pixels(patch, channel);
+    if (!(pixels > 0)) return {};
+    const Corners corners = survey(cache, patch, channel, settings.scale);
 
-    // Irradiance to the scale on which errors are seen, linearised at the patch's mean.
-    const float to_picture = settings.scale.of(patch);
-    const float slope = comparison_slope(corners.light * to_picture) * to_picture;
+    // Light to the scale on which errors are seen, linearised at the patch's mean.
+    const float to_picture = cache.shading(channel) == Shading::glossy ? settings.scale.exposure
+                                                                       : settings.scale.of(patch);
+    const float slope = comparison_slope(corners.picture) * to_picture;
 
     Gain result;
     if (patch.fragment_count > 1 && patch.divisible()) {
@@ -107,7 +111,7 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
         const float cost = points *
                            static_cast<float>(samples_of_new(cache, id, channel, settings)) *
                            settings.seconds_a_sample[channel];
-        result.refine = seen2 * fragments / cost;
+        result.refine = seen2 * pixels / cost;
     }
     for (int i = 0; i < corners.count; ++i) {
         const Estimate* e = cache.estimate(patch.corners[i], channel);
@@ -120,7 +124,7 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
             continue;
         const float cost = static_cast<float>(e->samples) * settings.seconds_a_sample[channel];
         // Half the variance would go at this corner; but it shows in all patches round it.
-        const float drop = variance * slope * slope * fragments / cost;
+        const float drop = variance * slope * slope * pixels / cost;
         if (drop > result.resample) {
             result.resample = drop;
             result.noisiest = patch.corners[i];

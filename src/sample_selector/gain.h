@@ -21,7 +21,7 @@ struct GainSettings {
 /// Two ways to spend on a patch of a channel's front: evaluate its midpoints, or take more samples
 /// at its noisiest corner.
 struct Gain {
-    float refine = 0;  // squared error times fragments a second, >= 0
+    float refine = 0;  // squared error times pixels a second, >= 0
     float resample = 0;
     VertexId noisiest = VertexId::none;
 
@@ -36,7 +36,7 @@ bool on_front(const ShadingCache& cache, PatchId patch, int channel);
 std::uint32_t samples_of_new(const ShadingCache& cache, PatchId patch, int channel,
                              const GainSettings& settings);
 
-/// Gain at a patch of the front. Zero where nothing of it is in view.
+/// Gain at a patch of the front. Zero where nothing of it is in view that the channel lights.
 ///
 /// Refining pays for the error that the surplus of its corners and their range predict; but a
 /// difference within the corners' standard error is noise, and asks for samples (section 8).

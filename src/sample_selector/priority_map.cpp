@@ -10,13 +10,24 @@
 namespace chiaro {
 namespace {
 
+// A patch that is not in view is taken to show its irradiance.
+bool counts(const ShadingCache& cache, const Patch& patch, Shading shading) {
+    if (shading == Shading::glossy) return cache.has_glossy() && patch.glossy_pixels > 0;
+    return patch.pixels > 0 || !(patch.glossy_pixels > 0);
+}
+
+// What a fragment adds to its pixel, a surface's glossy radiance taken to be what its diffuse is.
+float weight_of(const Fragment& f) {
+    return luminance(f.reflectance + f.gloss * (1 / kPi));
+}
+
 PatchId choose_leaf(std::span<const Fragment> fragments, float u) {
     if (fragments.size() == 1) return fragments.front().patch;
     float rest = 0;
-    for (const Fragment& f : fragments) rest += luminance(f.reflectance);
+    for (const Fragment& f : fragments) rest += weight_of(f);
     rest *= u;
     for (const Fragment& f : fragments) {
-        rest -= luminance(f.reflectance);
+        rest -= weight_of(f);
         if (rest < 0) return f.patch;
     }
     return fragments.back().patch;
@@ -24,14 +35,25 @@ PatchId choose_leaf(std::span<const Fragment> fragments, float u) {
 
 }  // namespace
 
+Rgb PictureScale::color(const ShadingCache& cache, const Patch& patch, VertexId corner) const {
+    Rgb sum(0);
+    if (counts(cache, patch, Shading::irradiance))
+        sum += of(patch) * cache.shown_total(corner).value;
+    if (counts(cache, patch, Shading::glossy))
+        sum += exposure * cache.shown_total(corner, Shading::glossy).value;
+    return sum;
+}
+
 float interpolation_error(const ShadingCache& cache, const Patch& leaf,
                           const PictureScale& picture) {
-    const float scale = picture.of(leaf);
     float low = kInfinity;
     float high = -kInfinity;
     for (int c = 0; c < leaf.corner_count(); ++c) {
-        if (!cache.evaluated(leaf.corners[c], 0)) return 1;
-        const float tone = paper_tone_value(cache.shown_total(leaf.corners[c]).irradiance, scale);
+        for (int channel = 0; channel < cache.channels(); ++channel)
+            if (counts(cache, leaf, cache.shading(channel)) &&
+                !cache.evaluated(leaf.corners[c], channel))
+                return 1;
+        const float tone = paper_tone_value(picture.color(cache, leaf, leaf.corners[c]), 1);
         low = std::min(low, tone);
         high = std::max(high, tone);
     }

@@ -15,16 +15,22 @@ struct PictureScale {
     float exposure = 1;       // the picture's values to that scale
     bool irradiance = false;  // the picture shows irradiance itself (Aov::irradiance)
 
-    /// What multiplies the patch's irradiance.
+    /// What multiplies the patch's irradiance; glossy radiance has the exposure alone.
     float of(const Patch& patch) const {
         if (irradiance) return exposure;
         // A black surface keeps a little weight: its texture may not be black all over.
         return exposure * std::max<float>(patch.reflectance, 1) / 255.0f / kPi;
     }
+
+    /// All light at a corner of the patch that the picture shows.
+    Rgb color(const ShadingCache& cache, const Patch& patch, VertexId corner) const;
+    float shown(const ShadingCache& cache, const Patch& patch, VertexId corner) const {
+        return luminance(color(cache, patch, corner));
+    }
 };
 
 /// Priority of a leaf: the largest minus the smallest tone-mapped colour of its corners, in [0, 1].
-/// A leaf with a corner that was never shaded: 1.
+/// A leaf with a corner that was never shaded, of what it shows: 1.
 float interpolation_error(const ShadingCache& cache, const Patch& leaf, const PictureScale& scale);
 
 /// Priorities by pixel, made lazily for the leaves that cover one.

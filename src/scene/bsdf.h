@@ -19,6 +19,10 @@ namespace chiaro {
 /// that only sample_bsdf() finds.
 inline constexpr float kSmoothRoughness = 0.03f;
 
+/// Facets of at least this width (Bsdf::alpha) reflect so little detail that a cache may keep what
+/// they show; narrower ones ask for rays a pixel (docs/overview.md has the measurements).
+inline constexpr float kCachedFacets = 0.3f * 0.3f;
+
 struct Bsdf {
     Rgb diffuse = Rgb(0);  // albedo of the base, in [0, 1]
     Rgb f0 = Rgb(0);       // reflectance of the facets at normal incidence, in [0, f90]
@@ -78,6 +82,9 @@ Rgb straight_transmittance(const Bsdf& bsdf, float cosine);
 
 /// True if straight_transmittance() of the material is above 0 somewhere, or may be.
 bool may_pass_straight(const Material& material);
+
+/// The largest Bsdf::alpha that a surface of the material may have; 0 if nothing of it is glossy.
+float widest_facets(const Material& material);
 
 /// Radiance toward the eye over irradiance by light from `to_light` [1 / steradian]: without the
 /// cosine, without what is smooth. The roles are the light's, whoever walks: not even a path from a

@@ -59,13 +59,20 @@ Bsdf from_metallic_roughness(const Gloss& gloss, Rgb color, Vec2 factors, bool f
     return b;
 }
 
+float phong_facets(const Gloss& gloss) {
+    const bool traced = gloss.illumination_model >= 3 && gloss.illumination_model <= 7;
+    const bool sharp = traced && (gloss.shininess == 0 || gloss.shininess >= kSharpShininess);
+    return sharp ? 0.0f : alpha_or_smooth(phong_alpha(gloss.shininess));
+}
+
+bool shines(const Gloss& gloss) {
+    return gloss.illumination_model >= 2 && max_component(gloss.specular) > 0;
+}
+
 // MTL. Only illum 5 has Fresnel's increase toward grazing angles; the others reflect Ks alike.
 Bsdf from_phong(const Gloss& gloss, Rgb color, bool front) {
-    const int model = gloss.illumination_model;
-    const bool traced = model >= 3 && model <= 7;
-    const bool sharp = traced && (gloss.shininess == 0 || gloss.shininess >= kSharpShininess);
     Bsdf b;
-    b.alpha = sharp ? 0.0f : alpha_or_smooth(phong_alpha(gloss.shininess));
+    b.alpha = phong_facets(gloss);
 
     // Tf filters what passes through the object: half of it at each face of a solid.
     const Rgb filter = glm::clamp(gloss.transmission_color, 0.0f, 1.0f);
@@ -73,10 +80,9 @@ Bsdf from_phong(const Gloss& gloss, Rgb color, bool front) {
     if (b.glass == 1) return b;
 
     b.diffuse = color;
-    const bool shines = model >= 2 && max_component(gloss.specular) > 0;
-    if (!shines) return b;
+    if (!shines(gloss)) return b;
     b.f0 = glm::clamp(gloss.specular, 0.0f, 1.0f);
-    b.f90 = model == 5 ? Rgb(1) : b.f0;
+    b.f90 = gloss.illumination_model == 5 ? Rgb(1) : b.f0;
     return b;
 }
 
@@ -85,6 +91,22 @@ Bsdf from_phong(const Gloss& gloss, Rgb color, bool front) {
 bool may_pass_straight(const Material& material) {
     const Gloss& gloss = material.gloss;
     return gloss.model != GlossModel::none && gloss.thin && gloss.transmission > 0;
+}
+
+float widest_facets(const Material& material) {
+    const Gloss& gloss = material.gloss;
+    switch (gloss.model) {
+        case GlossModel::none:
+            break;
+        case GlossModel::metallic_roughness:
+            if (gloss.metallic > 0 || gloss.specular_factor > 0 || gloss.transmission > 0)
+                return alpha_or_smooth(gloss.roughness * gloss.roughness);
+            break;
+        case GlossModel::phong:
+            if (shines(gloss) || gloss.transmission > 0) return phong_facets(gloss);
+            break;
+    }
+    return 0;
 }
 
 Bsdf bsdf_at(const Scene& scene, const SurfacePoint& point, bool front) {

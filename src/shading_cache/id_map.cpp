@@ -1,9 +1,32 @@
 #include "shading_cache/id_map.h"
 
+#include "shading_cache/interpolate.h"
+
+#include <algorithm>
 #include <array>
 
 namespace chiaro {
 namespace {
+
+// Weighs a patch whose fragments are in place: squares of what it is in each pixel.
+void weigh(const IdMap& map, Patch& patch) {
+    const float alone =
+        map.irradiance ? 1.0f : std::max<float>(patch.reflectance, 1) / 255.0f / kPi;
+    float pixels = 0, glossy_pixels = 0;
+    const auto range = fragments_of(map, patch);
+    for (std::size_t i = 0; i < range.size();) {
+        const std::uint32_t pixel = map.fragments[range[i]].pixel;
+        float share = 0, gloss = 0;
+        for (; i < range.size() && map.fragments[range[i]].pixel == pixel; ++i) {
+            share += luminance(map.fragments[range[i]].reflectance);
+            gloss += luminance(map.fragments[range[i]].gloss);
+        }
+        pixels += share * share;
+        glossy_pixels += gloss * gloss;
+    }
+    patch.pixels = pixels / (alone * alone);
+    patch.glossy_pixels = glossy_pixels;
+}
 
 // Sorts an inner patch's range of fragments by child, stably, and moves each into its child's
 // coordinates.
@@ -28,6 +51,7 @@ void hand_down(ShadingCache& cache, IdMap& map, PatchId parent, Cycle now) {
         child.fragment_count = static_cast<std::uint32_t>(sorted[c].size());
         if (child.fragment_count > 0) child.last_seen = now;
         std::copy(sorted[c].begin(), sorted[c].end(), map.order.begin() + next);
+        weigh(map, child);
         next += child.fragment_count;
     }
 }
@@ -38,6 +62,7 @@ void attach(ShadingCache& cache, IdMap& map, Cycle now) {
     for (Patch& patch : cache.patches()) {
         if (patch.fragment_count > 0) patch.last_seen = now;  // in view until now
         patch.fragment_count = 0;
+        patch.pixels = patch.glossy_pixels = 0;
     }
 
     // Fragments by root: count, place, fill.
@@ -60,6 +85,7 @@ void attach(ShadingCache& cache, IdMap& map, Cycle now) {
     }
 
     // Then from each root down to the leaves.
+    for (const PatchId root : open) weigh(map, cache.patch(root));
     while (!open.empty()) {
         const PatchId id = open.back();
         open.pop_back();
@@ -74,6 +100,13 @@ PatchId subdivide_seen(ShadingCache& cache, IdMap& map, PatchId leaf, Cycle now)
     const PatchId first = cache.subdivide(leaf);
     hand_down(cache, map, leaf, now);
     return first;
+}
+
+Rgb shown_by(const ShadingCache& cache, const Fragment& f) {
+    Rgb sum(0);
+    if (f.reflectance != Rgb(0)) sum += f.reflectance * irradiance_at(cache, f.patch, f.local);
+    if (f.gloss != Rgb(0)) sum += f.gloss * glossy_at(cache, f.patch, f.local);
+    return sum;
 }
 
 std::span<const std::uint32_t> fragments_of(const IdMap& map, const Patch& patch) {

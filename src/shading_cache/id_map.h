@@ -14,7 +14,17 @@ struct Fragment {
     std::uint32_t pixel;  // y * width + x
     PatchId patch;        // the leaf on which it lies
     Vec2 local;           // its place there (split.h)
-    Rgb reflectance;      // radiance in the pixel over irradiance here: coverage x base colour / pi
+    Rgb reflectance;      // radiance in the pixel over irradiance here: coverage x albedo / pi
+    Rgb gloss = Rgb(0);   // and over glossy radiance here: coverage, where it is cached
+};
+
+/// A surface whose polish, too even to be cached, shows lights in a pixel.
+struct Glint {
+    std::uint32_t pixel;
+    SurfacePoint where;
+    bool front;
+    Vec3 seen_from;  // a place on the ray that shows it, world space
+    Rgb weight;      // radiance in the pixel over radiance toward there
 };
 
 /// The paper's map of patch identifiers, by rays instead of a rendered image: kept with the list of
@@ -27,6 +37,8 @@ struct IdMap {
     std::vector<std::uint32_t> first_of_pixel;  // width x height + 1 entries
     std::vector<std::uint32_t> order;           // fragments by patch: Patch::first_fragment
     Image background;  // radiance that needs no shading: emission, and black where nothing is
+    std::vector<Glint> glints;  // in order of pixels; the background lacks what they show of lights
+    bool irradiance = false;    // it is a picture of irradiance, not radiance
 
     std::span<const Fragment> at_pixel(std::uint32_t pixel) const {
         return std::span(fragments).subspan(first_of_pixel[pixel],
@@ -35,12 +47,15 @@ struct IdMap {
 };
 
 /// Makes `map` the view of the cache: hands each fragment, which names a root and a place on it,
-/// down to its leaf, counts fragments of all patches, and marks these as seen, as well as what the
-/// view before this one showed until now.
+/// down to its leaf, counts and weighs fragments of all patches, and marks these as seen, as well
+/// as what the view before this one showed until now.
 void attach(ShadingCache& cache, IdMap& map, Cycle now);
 
 /// Divides a leaf and hands its fragments to the children. Returns the first child.
 PatchId subdivide_seen(ShadingCache& cache, IdMap& map, PatchId leaf, Cycle now);
+
+/// What the fragment shows of the cache [cd/m2 a channel; lux in a picture of irradiance].
+Rgb shown_by(const ShadingCache& cache, const Fragment& fragment);
 
 /// Fragments that lie on `patch` or below it, as indices into map.fragments.
 std::span<const std::uint32_t> fragments_of(const IdMap& map, const Patch& patch);

@@ -10,7 +10,7 @@ struct Blend {
     float weight = 0;
 
     void add(const Shown& value, float w) {
-        sum += w * value.weight * value.irradiance;
+        sum += w * value.weight * value.value;
         weight += w * value.weight;
     }
     Shown result() const { return weight > 0 ? Shown{sum / weight, 1} : Shown{Rgb(0), 0}; }
@@ -37,7 +37,10 @@ FanPlace fan_place(bool quad, Vec2 p) {
     return {edge, 2 * away, 1 - along - away, along - away};
 }
 
-Rgb irradiance_at(const ShadingCache& cache, PatchId leaf, Vec2 local) {
+namespace {
+
+Rgb shown_at(const ShadingCache& cache, PatchId leaf, Vec2 local, Shading shading) {
+    const auto shown = [&](VertexId v) { return cache.shown_total(v, shading); };
     const Patch& patch = cache.patch(leaf);
     const int n = patch.corner_count();
     FanPlace place = fan_place(n == 4, local);
@@ -56,13 +59,23 @@ Rgb irradiance_at(const ShadingCache& cache, PatchId leaf, Vec2 local) {
     }
 
     Blend centre;
-    for (int i = 0; i < n; ++i) centre.add(cache.shown_total(patch.corners[i]), 1);
+    for (int i = 0; i < n; ++i) centre.add(shown(patch.corners[i]), 1);
     Blend total;
     total.add(centre.result(), place.centre);
-    total.add(cache.shown_total(a), place.a);
-    total.add(cache.shown_total(b), place.b);
+    total.add(shown(a), place.a);
+    total.add(shown(b), place.b);
     // On an edge between hollow vertices the centre still knows something.
-    return (total.weight > 0 ? total : centre).result().irradiance;
+    return (total.weight > 0 ? total : centre).result().value;
+}
+
+}  // namespace
+
+Rgb irradiance_at(const ShadingCache& cache, PatchId leaf, Vec2 local) {
+    return shown_at(cache, leaf, local, Shading::irradiance);
+}
+
+Rgb glossy_at(const ShadingCache& cache, PatchId leaf, Vec2 local) {
+    return shown_at(cache, leaf, local, Shading::glossy);
 }
 
 }  // namespace chiaro

@@ -41,6 +41,10 @@ struct Patch {
     std::uint8_t level = 0;             // 0 on a root
     std::uint8_t refined_channels = 0;  // bit c: channel c is refined here
     std::uint8_t reflectance = 255;     // mean luminance of the root's base colour, 255 is 1
+    // What its irradiance, and its glossy radiance, weigh in the picture, in pixels that show the
+    // patch alone and straight: squared, as errors count (IdMap).
+    Bfloat16 pixels = 0;
+    Bfloat16 glossy_pixels = 0;
 
     bool is_root() const { return level == 0; }
     bool is_leaf() const { return split == Split::none; }
@@ -73,7 +77,7 @@ struct Estimate {
     static constexpr std::uint32_t kMostSamples = (1U << 18) - 1;
     static constexpr Cycle kCycleMask = (1U << 14) - 1;
 
-    Rgb mean = Rgb(0);      // irradiance [lux a colour channel]
+    Rgb mean = Rgb(0);      // irradiance [lux a colour channel], or radiance of a glossy channel
     Bfloat16 variance = 0;  // of the mean's luminance [lux^2]
     Bfloat16 surplus = 0;   // luminance by which the first mean missed its prediction, less noise
                             // [lux]; kUnknown where there was none

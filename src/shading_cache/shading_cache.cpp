@@ -24,9 +24,11 @@ constexpr float kLong = 1.5f;
 
 }  // namespace
 
-ShadingCache::ShadingCache(const Scene& scene, int channels, SplitRule rule)
-    : scene_(&scene), rule_(rule) {
-    check(channels >= 1 && channels <= 8, "ShadingCache: 1 to 8 channels");
+ShadingCache::ShadingCache(const Scene& scene, Channels channels, SplitRule rule)
+    : scene_(&scene), rule_(rule), irradiance_channels_(channels.irradiance) {
+    const int total = channels.irradiance + channels.glossy;
+    check(channels.irradiance >= 1 && channels.glossy >= 0 && total <= 8,
+          "ShadingCache: 1 to 8 channels");
     std::uint32_t count = 0;
     for (const Object& object : scene.objects) {
         first_primitive_.push_back(count);
@@ -38,9 +40,9 @@ ShadingCache::ShadingCache(const Scene& scene, int channels, SplitRule rule)
     }
     roots_.assign(2 * static_cast<std::size_t>(count), PatchId::none);
     check(roots_.size() <= std::size_t{1} << 29, "ShadingCache: more primitives than ids");
-    slots_.resize(channels);
-    estimates_.resize(channels);
-    shown_.resize(channels);
+    slots_.resize(total);
+    estimates_.resize(total);
+    shown_.resize(total);
 }
 
 PatchId ShadingCache::root(ObjectId object, std::uint32_t primitive, bool front) {

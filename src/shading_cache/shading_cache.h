@@ -17,9 +17,20 @@ namespace chiaro {
 /// How patches are divided: always into four as in 3.1, or by their shape (split.h).
 enum class SplitRule { always_four, by_shape };
 
+/// How many channels a cache has, which is fixed for its life. The first ones hold parts of the
+/// irradiance; the others parts of the exitant radiance toward one eye [cd/m2 a colour channel], on
+/// surfaces that are not diffuse.
+struct Channels {
+    int irradiance = 1;
+    int glossy = 0;
+};
+
+/// What channels hold.
+enum class Shading { irradiance, glossy };
+
 /// A value of one channel, and what it weighs in an interpolation: 0 at a hollow vertex, else 1.
 struct Shown {
-    Rgb irradiance;
+    Rgb value;
     float weight;
 };
 
@@ -30,10 +41,15 @@ struct Shown {
 class ShadingCache {
 public:
     /// No patches yet: roots are made when first asked for. `scene` must outlive the cache.
-    /// `channels` (1 to 8) is fixed for the cache's life.
-    ShadingCache(const Scene& scene, int channels, SplitRule rule);
+    /// Checks: 1 to 8 channels.
+    ShadingCache(const Scene& scene, Channels channels, SplitRule rule);
 
     int channels() const { return static_cast<int>(estimates_.size()); }
+    /// What a channel holds.
+    Shading shading(int channel) const {
+        return channel < irradiance_channels_ ? Shading::irradiance : Shading::glossy;
+    }
+    bool has_glossy() const { return irradiance_channels_ < channels(); }
     const Scene& scene() const { return *scene_; }
     std::span<const Patch> patches() const { return patches_; }
     std::span<Patch> patches() { return patches_; }
@@ -72,9 +88,9 @@ public:
     const Estimate* estimate(VertexId vertex, int channel) const;
     bool evaluated(VertexId vertex, int channel) const { return estimate(vertex, channel); }
 
-    /// By how much the estimate, which is the vertex's, missed its prediction (luminance, lux);
-    /// where there was none, a part of all light there.
-    float surplus(VertexId vertex, const Estimate& estimate) const;
+    /// By how much the vertex's estimate missed its prediction (luminance); where there was none, a
+    /// part of all light there. Checks: evaluated.
+    float surplus(VertexId vertex, int channel) const;
 
     /// Merges `samples` further samples with their `mean` and the luminance variance of that mean.
     /// The first time, notes the surplus over the parents' prediction. Checks: finite, samples > 0.
@@ -84,7 +100,7 @@ public:
     void mark_buried(VertexId vertex);
     /// More samples have told otherwise.
     void unmark_buried(VertexId vertex);
-    /// All channels were evaluated, and none has found any light.
+    /// All channels of irradiance were evaluated, and none has found any light.
     bool dark(VertexId vertex) const;
     /// A vertex that was taken for buried is in view: its estimates count after all, and for good.
     void expose(VertexId vertex);
@@ -94,8 +110,15 @@ public:
     /// The channel's value at a vertex as it was last resolved: the estimate, or what the parents
     /// predict where there is none or the vertex is buried.
     Shown shown(VertexId vertex, int channel) const;
-    /// Sum of all channels.
-    Shown shown_total(VertexId vertex) const;
+    /// Sum of all channels that hold the one or the other.
+    Shown shown_total(VertexId vertex, Shading shading = Shading::irradiance) const;
+    /// What the channel weighs in the picture, on that patch.
+    float pixels(const Patch& patch, int channel) const {
+        return shading(channel) == Shading::irradiance ? patch.pixels : patch.glossy_pixels;
+    }
+
+    /// Gives up all that glossy channels hold, as the eye has moved, and their refinement.
+    void forget_glossy();
 
     /// Carries values from coarse to fine through the whole graph. store() resolves its own vertex;
     /// this brings what depends on it up to date.
@@ -116,12 +139,13 @@ private:
     float first_surplus(VertexId vertex, int channel, Rgb mean, float variance) const;
     void resolve_vertex(VertexId vertex, int channel);
     void resolve_vertex(VertexId vertex);
-    void show(VertexId vertex, int channel, Rgb irradiance);
+    void show(VertexId vertex, int channel, Rgb value);
     SurfacePoint place(std::uint32_t surface_side, Vec2 uv) const;
     void pack_channels(const std::vector<char>& vertex_kept);
 
     const Scene* scene_;
     SplitRule rule_;
+    int irradiance_channels_;
     std::vector<std::uint32_t> first_primitive_;  // of each object, in one count over all
     std::vector<std::uint8_t> reflectances_;      // of each material, as Patch::reflectance
     std::vector<PatchId> roots_;                  // by surface side: 2 x primitive + (back ? 1 : 0)
@@ -134,7 +158,7 @@ private:
     std::vector<std::vector<std::uint32_t>> slots_;  // a channel: vertex to estimate, or kNoSlot
     std::vector<std::vector<Estimate>> estimates_;   // a channel: only what was evaluated
     std::vector<std::vector<std::uint32_t>> shown_;  // a channel: RGB9E5 by vertex, in shown_unit_
-    float shown_unit_ = 0x1p-60f;  // [lux], a power of two; raised when something brighter comes
+    float shown_unit_ = 0x1p-60f;  // a power of two; raised when something brighter comes
 };
 
 /// Appends with capacity growing by a 32nd: memory is part of what we promise.

@@ -50,17 +50,19 @@ float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float vari
         if (!e) continue;
         const float weight = static_cast<float>(vertex(id).weights[i]) / CacheVertex::kFullWeight;
         noise += weight * weight * e->variance;
-        inherited = std::max(inherited, surplus(vertex(id).parents[i], *e));
+        inherited = std::max(inherited, surplus(vertex(id).parents[i], channel));
     }
     const float own = std::sqrt(std::max(0.0f, miss * miss - 3 * noise));
     return std::max(own, inherited / 16);
 }
 
-float ShadingCache::surplus(VertexId id, const Estimate& estimate) const {
+float ShadingCache::surplus(VertexId id, int channel) const {
     // A vertex that nothing predicted tells nothing of what lies around it.
     constexpr float kPartUnknown = 0.4f;
-    if (estimate.surplus != Estimate::kUnknown) return estimate.surplus;
-    return kPartUnknown * luminance(shown_total(id).irradiance);
+    const Estimate* e = estimate(id, channel);
+    check(e != nullptr, "surplus: the vertex was not evaluated");
+    if (e->surplus != Estimate::kUnknown) return e->surplus;
+    return kPartUnknown * luminance(shown_total(id, shading(channel)).value);
 }
 
 void ShadingCache::mark_buried(VertexId id) {
@@ -76,7 +78,7 @@ void ShadingCache::unmark_buried(VertexId id) {
 }
 
 bool ShadingCache::dark(VertexId id) const {
-    for (int c = 0; c < channels(); ++c) {
+    for (int c = 0; c < irradiance_channels_; ++c) {
         const Estimate* e = estimate(id, c);
         if (!e || max_component(e->mean) > 0) return false;
     }
@@ -99,10 +101,24 @@ Shown ShadingCache::shown(VertexId id, int channel) const {
             vertex(id).hollow ? 0.0f : 1.0f};
 }
 
-Shown ShadingCache::shown_total(VertexId id) const {
-    Shown total = shown(id, 0);
-    for (int c = 1; c < channels(); ++c) total.irradiance += shown(id, c).irradiance;
+Shown ShadingCache::shown_total(VertexId id, Shading shading) const {
+    const bool glossy = shading == Shading::glossy;
+    const int first = glossy ? irradiance_channels_ : 0;
+    const int end = glossy ? channels() : irradiance_channels_;
+    Shown total = {Rgb(0), vertex(id).hollow ? 0.0f : 1.0f};
+    for (int c = first; c < end; ++c) total.value += shown(id, c).value;
     return total;
+}
+
+void ShadingCache::forget_glossy() {
+    for (int c = irradiance_channels_; c < channels(); ++c) {
+        std::fill(slots_[c].begin(), slots_[c].end(), kNoSlot);
+        std::fill(shown_[c].begin(), shown_[c].end(), 0u);
+        estimates_[c].clear();
+        for (Patch& patch : patches_)
+            patch.refined_channels &= static_cast<std::uint8_t>(~(1u << c));
+    }
+    for (std::size_t i = 0; i < vertices_.size(); ++i) resolve_hollow(static_cast<VertexId>(i));
 }
 
 // The parents' weighted mean, hollow ones left out; nothing if none is left.

@@ -16,7 +16,7 @@ constexpr float kChance = 0.03f;
 }  // namespace
 
 void UpdateCycle::refine() {
-    ShadeWork work(plans_, settings_.seed);
+    ShadeWork work = new_work();
     touched_.clear();
     choose(work);
     shade(work);
@@ -91,11 +91,12 @@ bool UpdateCycle::draw_patch(PatchId& patch, int& channel) {
     return true;
 }
 
-// The front's patch in a channel below a pixel; none on the background.
+// The front's patch in a channel below a pixel; none where the channel lights nothing.
 PatchId UpdateCycle::front_patch_at(std::uint32_t pixel, int channel) {
     const auto fragments = map_.at_pixel(pixel);
     if (fragments.empty()) return PatchId::none;
     PatchId id = fragments[rng_.below(static_cast<std::uint32_t>(fragments.size()))].patch;
+    if (!(cache_.pixels(cache_.patch(id), channel) > 0)) return PatchId::none;
     while (!on_front(cache_, id, channel)) id = static_cast<PatchId>(cache_.patch(id).parent);
     return id;
 }
@@ -126,7 +127,7 @@ void UpdateCycle::divide(PatchId id, int channel, ShadeWork& work) {
     for (int c = 0; c < child_count(cache_.patch(id).split); ++c) {
         const PatchId child = offset_by(cache_.patch(id).first_child, c);
         const Patch& p = cache_.patch(child);
-        if (p.fragment_count == 0) continue;
+        if (!(cache_.pixels(p, channel) > 0)) continue;
         for (int i = 0; i < p.corner_count(); ++i)
             work.evaluate(cache_, p.corners[i], channel, samples);
         touched_.emplace_back(child, channel);
@@ -134,7 +135,7 @@ void UpdateCycle::divide(PatchId id, int channel, ShadeWork& work) {
 }
 
 float UpdateCycle::front_gain(PatchId id, int channel) const {
-    if (cache_.patch(id).fragment_count == 0 || !on_front(cache_, id, channel)) return 0;
+    if (!(cache_.pixels(cache_.patch(id), channel) > 0) || !on_front(cache_, id, channel)) return 0;
     return gain(cache_, id, channel, gains_).best();
 }
 

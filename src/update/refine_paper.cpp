@@ -10,8 +10,10 @@ namespace chiaro {
 namespace {
 
 bool all_evaluated(const ShadingCache& cache, const Patch& patch) {
-    for (int c = 0; c < patch.corner_count(); ++c)
-        if (!cache.evaluated(patch.corners[c], 0)) return false;
+    for (int channel = 0; channel < cache.channels(); ++channel)
+        for (int c = 0; c < patch.corner_count(); ++c)
+            if (cache.pixels(patch, channel) > 0 && !cache.evaluated(patch.corners[c], channel))
+                return false;
     return true;
 }
 
@@ -34,7 +36,7 @@ void UpdateCycle::refine_as_paper() {
         selected = count_by_patch(map, selection_);
     }
 
-    ShadeWork work(plans_, settings_.seed);
+    ShadeWork work = new_work();
     {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
         for (const auto& [patch, samples] : selected) shade_or_subdivide(patch, work);
@@ -56,14 +58,18 @@ void UpdateCycle::refine_as_paper() {
 // children and evaluate the shading values for their vertices", down to one pixel.
 void UpdateCycle::shade_or_subdivide(PatchId id, ShadeWork& work) {
     const auto evaluate = [&](const Patch& p) {
-        for (int c = 0; c < p.corner_count(); ++c) work.evaluate(cache_, p.corners[c], 0);
+        for (int channel = 0; channel < cache_.channels(); ++channel)
+            for (int c = 0; c < p.corner_count(); ++c)
+                if (cache_.pixels(cache_.patch(id), channel) > 0)
+                    work.evaluate(cache_, p.corners[c], channel);
     };
     if (!all_evaluated(cache_, cache_.patch(id))) {
         evaluate(cache_.patch(id));
     } else if (cache_.patch(id).fragment_count > 1 && cache_.patch(id).divisible()) {
         const PatchId first =
             subdivide_seen(cache_, map_, id, static_cast<Cycle>(statistics_.cycles));
-        cache_.patch(id).refined_channels = 1;
+        cache_.patch(id).refined_channels =
+            static_cast<std::uint8_t>((1u << cache_.channels()) - 1);
         for (int c = 0; c < 4; ++c) evaluate(cache_.patch(offset_by(first, c)));
     }
 }

@@ -19,7 +19,8 @@ std::uint32_t vertex_seed(const CacheVertex& vertex, int channel, std::uint64_t 
 
 }  // namespace
 
-ShadeWork::ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed) : seed_(seed) {
+ShadeWork::ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed, Vec3 eye)
+    : seed_(seed), eye_(eye) {
     for (const ChannelPlan& plan : plans) channels_.push_back({plan, {}, {}, 0});
 }
 
@@ -47,6 +48,7 @@ bool ShadeWork::add(const ShadingCache& cache, VertexId vertex, int channel, std
     request.where = cache.surface_point(vertex);
     request.front = cache.on_front(vertex);
     request.light = c.plan.light;
+    request.eye = eye_;
     request.seed = vertex_seed(cache.vertex(vertex), channel, seed_);
     request.first_sample = first;
     request.samples = samples;
@@ -110,12 +112,13 @@ void ShadeWork::judge_buried(ShadingCache& cache, VertexId vertex, int channel,
 ShadeWork ShadeWork::doubts(const ShadingCache& cache) const {
     std::vector<ChannelPlan> plans;
     for (const Channel& c : channels_) plans.push_back(c.plan);
-    ShadeWork more(plans, seed_);
+    ShadeWork more(plans, seed_, eye_);
     const auto dark_so_far = [&](VertexId v, int channel) {
         const Estimate* e = cache.estimate(v, channel);
         return !e || max_component(e->mean) == 0;
     };
-    const int count = static_cast<int>(channels_.size());
+    int count = static_cast<int>(channels_.size());
+    while (count > 0 && channels_[count - 1].plan.light == Light::glossy) --count;
     for (int c = 0; c < count; ++c) {
         if (!channels_[c].plan.zero_is_buried) continue;
         for (const VertexId v : channels_[c].vertices) {

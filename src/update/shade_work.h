@@ -23,8 +23,9 @@ struct ChannelPlan {
 /// Requests of one cycle. Each (vertex, channel) is asked for at most once a cycle.
 class ShadeWork {
 public:
-    /// `seed` is the session's; a vertex's own follows from it, its place and its channel.
-    ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed);
+    /// `seed` is the session's; a vertex's own follows from it, its place and its channel. `eye` is
+    /// where glossy light is seen from.
+    ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed, Vec3 eye = Vec3(0));
 
     /// Asks for `samples` first samples of a vertex (0: as the plan says), unless it is evaluated
     /// or asked for. Returns whether it was added.
@@ -42,7 +43,7 @@ public:
     double shade(ShadingCache& cache, SampleRenderer& renderer, int channel, Cycle now);
 
     /// What it takes to know whether those vertices of this work that have found no light are dark:
-    /// the other channels, and more samples.
+    /// the other channels of irradiance, and more samples.
     ShadeWork doubts(const ShadingCache& cache) const;
 
     static constexpr std::uint32_t kMostAtOnce = 8192;
@@ -63,6 +64,7 @@ private:
     std::vector<Channel> channels_;
     std::unordered_set<std::uint64_t> asked_;
     std::uint64_t seed_;
+    Vec3 eye_;
 };
 
 }  // namespace chiaro

@@ -7,18 +7,18 @@
 namespace chiaro {
 namespace {
 
-// Patches that cover fewer fragments wait for a reason to be divided.
+// Patches that cover fewer pixels wait for a reason to be divided.
 constexpr std::uint32_t kSmallest = 16;
 
 // A patch of no more fragments than this is seen wherever its corners are.
 constexpr std::uint32_t kSeenAllOver = 64;
 
 struct Large {
-    std::uint32_t fragments;
+    float pixels;
     PatchId patch;
     // Ties go to the older patch, so that the order is the same everywhere.
     bool operator<(const Large& o) const {
-        return fragments != o.fragments ? fragments < o.fragments : patch > o.patch;
+        return pixels != o.pixels ? pixels < o.pixels : patch > o.patch;
     }
 };
 
@@ -29,9 +29,10 @@ void even_out(ShadingCache& cache, IdMap& map, int channel, std::size_t vertex_b
     std::size_t in_view = 0;
     const auto add = [&](PatchId id) {
         const Patch& p = cache.patch(id);
-        if (p.fragment_count == 0 || !on_front(cache, id, channel)) return;
+        const float pixels = cache.pixels(p, channel);
+        if (!(pixels > 0) || !on_front(cache, id, channel)) return;
         ++in_view;  // a regular mesh has about as many vertices as leaves
-        if (p.fragment_count > kSmallest && p.divisible()) large.push({p.fragment_count, id});
+        if (pixels > kSmallest && p.fragment_count > 1 && p.divisible()) large.push({pixels, id});
     };
     for (std::size_t i = 0; i < cache.patches().size(); ++i) add(static_cast<PatchId>(i));
 
@@ -51,7 +52,8 @@ std::size_t missing_in_view(const ShadingCache& cache, int channel) {
     std::size_t missing = 0;
     for (std::size_t i = 0; i < cache.patches().size(); ++i) {
         const Patch& p = cache.patches()[i];
-        if (p.fragment_count == 0 || !on_front(cache, static_cast<PatchId>(i), channel)) continue;
+        if (!(cache.pixels(p, channel) > 0) || !on_front(cache, static_cast<PatchId>(i), channel))
+            continue;
         for (int c = 0; c < p.corner_count(); ++c) {
             char& known = counted[index_of(p.corners[c])];
             if (known || cache.evaluated(p.corners[c], channel)) continue;
@@ -68,6 +70,7 @@ void evaluate_in_view(const ShadingCache& cache, std::span<const std::uint32_t> 
         const Patch& p = cache.patches()[i];
         if (p.fragment_count == 0) continue;
         for (int channel = 0; channel < cache.channels(); ++channel) {
+            if (!(cache.pixels(p, channel) > 0)) continue;
             if (!on_front(cache, static_cast<PatchId>(i), channel)) continue;
             for (int c = 0; c < p.corner_count(); ++c)
                 work.evaluate(cache, p.corners[c], channel, samples[channel]);
@@ -89,7 +92,9 @@ std::vector<PatchId> dug_in(const ShadingCache& cache, int channel) {
     std::vector<PatchId> found;
     for (std::size_t i = 0; i < cache.patches().size(); ++i) {
         const Patch& p = cache.patches()[i];
-        if (!p.divisible() || cache.buried_corners(p) + 1 < p.corner_count()) continue;
+        if (!p.divisible() || !(cache.pixels(p, channel) > 0) ||
+            cache.buried_corners(p) + 1 < p.corner_count())
+            continue;
         // A patch whose corners found some light is exposed when it is small; one that would be
         // black is divided to the last.
         if (p.fragment_count <= (all_dark(cache, p) ? 1 : kSmallest)) continue;

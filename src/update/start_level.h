@@ -16,8 +16,8 @@ void even_out(ShadingCache& cache, IdMap& map, int channel, std::size_t vertex_b
 /// Corners in view of a channel's front where it is not evaluated.
 std::size_t missing_in_view(const ShadingCache& cache, int channel);
 
-/// Asks for every channel at every corner of the patches in view that no channel is refined below,
-/// where it is missing, with `samples` of each channel (0: as its plan says).
+/// Asks for every channel at every corner of the patches in view that it lights and that it is not
+/// refined below, where it is missing, with `samples` of each channel (0: as its plan says).
 void evaluate_in_view(const ShadingCache& cache, std::span<const std::uint32_t> samples,
                       ShadeWork& work);
 

@@ -3,17 +3,26 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/tone_map.h"
-#include "shading_cache/interpolate.h"
+#include "scene/bsdf.h"
 #include "update/start_level.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace chiaro {
 namespace {
 
-// The best scheme's channels and what their vertices start with.
-std::vector<ChannelPlan> plan_channels(const UpdateSettings& settings, const Scene& scene) {
+// Whether the picture shows light that glossy surfaces' vertices are asked for.
+bool shows_cached_gloss(const UpdateSettings& settings, const Scene& scene) {
+    if (settings.aov == Aov::irradiance) return false;
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
+        return widest_facets(m) >= settings.cached_facets;
+    });
+}
+
+// The schemes' channels of irradiance and what their vertices start with.
+std::vector<ChannelPlan> plan_irradiance(const UpdateSettings& settings, const Scene& scene) {
     if (settings.scheme == Scheme::paper)
         return {{Light::total, settings.direct_samples, settings.indirect_samples}};
     // Where surfaces reflect at all, indirect light is everywhere but inside of solids.
@@ -26,13 +35,45 @@ std::vector<ChannelPlan> plan_channels(const UpdateSettings& settings, const Sce
              .zero_is_buried = reflects}};
 }
 
+std::vector<ChannelPlan> plan_channels(const UpdateSettings& settings, const Scene& scene) {
+    std::vector<ChannelPlan> plans = plan_irradiance(settings, scene);
+    if (!shows_cached_gloss(settings, scene)) return plans;
+    const bool paper = settings.scheme == Scheme::paper;
+    plans.push_back({.light = Light::glossy,
+                     .first_samples = paper ? settings.indirect_samples : 32,
+                     .finds_buried = !paper});
+    return plans;
+}
+
+Channels count_channels(std::span<const ChannelPlan> plans) {
+    Channels count = {.irradiance = 0};
+    for (const ChannelPlan& plan : plans)
+        ++(plan.light == Light::glossy ? count.glossy : count.irradiance);
+    return count;
+}
+
+float cost(const SampleCosts& costs, Light light) {
+    switch (light) {
+        case Light::direct:
+            return costs.direct;
+        case Light::glossy:
+            return costs.glossy;
+        default:
+            return costs.indirect;
+    }
+}
+
 // A cycle of fixed size asks for about as much as this.
 constexpr double kFixedFirstPictureSeconds = 0.15;
 
-// Direct light's part of the first picture's time, and how many times the planned samples a vertex
-// of the first picture may have.
+// Direct light's part of the first picture's time; glossy light's, where it lights the whole
+// picture; and how many times the planned samples a vertex of the first picture may have.
 constexpr double kDirectShare = 0.15;
+constexpr double kGlossyShare = 0.5;
 constexpr std::uint32_t kMostFirstSamples = 4;
+
+// Samples of lights that a pixel's polish takes when the view rests.
+constexpr std::uint32_t kGlintSamples = 4 * kReplicates;
 
 SplitRule split_rule(Scheme scheme) {
     return scheme == Scheme::paper ? SplitRule::always_four : SplitRule::by_shape;
@@ -47,21 +88,20 @@ UpdateCycle::UpdateCycle(const RayCaster& rays, SampleRenderer& renderer, OpenSi
       open_sides_(&open_sides),
       settings_(settings),
       plans_(plan_channels(settings, rays.scene())),
-      cache_(rays.scene(), static_cast<int>(plans_.size()), split_rule(settings.scheme)),
+      cache_(rays.scene(), count_channels(plans_), split_rule(settings.scheme)),
       rng_(settings.seed),
       front_(plans_.size()) {
     for (std::size_t c = 0; c < plans_.size(); ++c) {
         gains_.first_samples[c] = plans_[c].first_samples;
         // Before any costs were measured, and for good in cycles of fixed size.
-        const SampleCosts costs = renderer.typical_costs();
-        gains_.seconds_a_sample[c] =
-            plans_[c].light == Light::direct ? costs.direct : costs.indirect;
+        gains_.seconds_a_sample[c] = cost(renderer.typical_costs(), plans_[c].light);
         gains_.zero_is_doubtful[c] = plans_[c].zero_is_buried;
     }
     gains_.scale.irradiance = settings.aov == Aov::irradiance;
 }
 
 void UpdateCycle::look_from(const View& view) {
+    if (view_ && view_->eye() != view.eye()) cache_.forget_glossy();
     view_ = view;
     stage_ = Stage::new_view;
 }
@@ -92,15 +132,50 @@ void UpdateCycle::run() {
 
 void UpdateCycle::make_map(ViewQuality quality) {
     const StepTimer timer(statistics_.timings, Step::sample_selection);
-    map_ = make_id_map(cache_, *rays_, *view_, {quality, settings_.aov, settings_.threads},
-                       open_sides_);
+    const RayViewSettings view = {.quality = quality,
+                                  .aov = settings_.aov,
+                                  .threads = settings_.threads,
+                                  .cached_facets = settings_.cached_facets};
+    map_ = make_id_map(cache_, *rays_, *view_, view, open_sides_);
     attach(cache_, map_, static_cast<Cycle>(statistics_.cycles));
+    add_glints(quality == ViewQuality::one_ray ? kGlintSamples / 4 : kGlintSamples);
+}
+
+// What polish shows of lights is sampled a pixel, once, as the view is.
+void UpdateCycle::add_glints(std::uint32_t samples) {
+    const StepTimer timer(statistics_.timings, Step::rendering);
+    std::vector<ShadeRequest> requests;
+    for (const Glint& glint : map_.glints) {
+        ShadeRequest request;
+        request.where = glint.where;
+        request.front = glint.front;
+        request.light = Light::glint;
+        request.eye = glint.seen_from;
+        request.seed = hash32(hash64(settings_.seed), static_cast<std::uint32_t>(requests.size()));
+        // The larger its part, the more; a multiple of kReplicates.
+        const float part = std::min(max_component(glint.weight), 1.0f);
+        request.samples =
+            kReplicates *
+            static_cast<std::uint32_t>(std::ceil(part * static_cast<float>(samples / kReplicates)));
+        requests.push_back(request);
+    }
+    std::vector<ShadeResult> results(requests.size());
+    renderer_->shade(requests, results);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const Glint& glint = map_.glints[i];
+        map_.background.pixels[glint.pixel] += glint.weight * results[i].mean;
+    }
+    map_.glints = {};
+}
+
+ShadeWork UpdateCycle::new_work() const {
+    return {plans_, settings_.seed, view_->eye()};
 }
 
 // Everything in view, at an even density that the first picture's budget can pay. The paper's
 // scheme evaluates the roots as they are.
 void UpdateCycle::start() {
-    ShadeWork work(plans_, settings_.seed);
+    ShadeWork work = new_work();
     std::vector<std::uint32_t> samples(plans_.size(), 0);
     if (settings_.scheme == Scheme::best) {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
@@ -125,7 +200,7 @@ void UpdateCycle::dig_out() {
     const StepTimer timer(statistics_.timings, Step::sample_selection);
     constexpr int kMostRounds = 8;
     for (int round = 0; round < kMostRounds; ++round) {
-        ShadeWork work(plans_, settings_.seed);
+        ShadeWork work = new_work();
         touched_.clear();
         for (int c = 0; c < cache_.channels(); ++c)
             for (const PatchId patch : dug_in(cache_, c)) divide(patch, c, work);
@@ -136,12 +211,22 @@ void UpdateCycle::dig_out() {
         expose_if_seen(cache_, static_cast<PatchId>(i));
 }
 
+double UpdateCycle::first_picture_share(int channel) const {
+    double glossy_pixels = 0;
+    for (const Patch& patch : cache_.patches())
+        if (patch.is_root()) glossy_pixels += patch.glossy_pixels;
+    const auto pixels = static_cast<double>(map_.background.pixels.size());
+    const double glossy = kGlossyShare * std::min(1.0, glossy_pixels / pixels);
+    if (plans_[channel].light == Light::glossy) return glossy;
+    return (1 - glossy) *
+           (plans_[channel].light == Light::direct ? kDirectShare : 1 - kDirectShare);
+}
+
 // Divides patches until a channel's share of the first picture's seconds is used, and returns with
 // how many samples its vertices start: more than the plan says where few vertices are needed, since
 // noise is seen before interpolation is.
 std::uint32_t UpdateCycle::even_out_channel(int channel, double seconds) {
-    const double share =
-        seconds * (plans_[channel].light == Light::direct ? kDirectShare : 1 - kDirectShare);
+    const double share = seconds * first_picture_share(channel);
     const auto affordable = [&](std::uint32_t samples) {
         return share / (samples * static_cast<double>(gains_.seconds_a_sample[channel]));
     };
@@ -188,8 +273,7 @@ void UpdateCycle::estimate_exposure() {
     for (std::size_t i = 0; i < thin.pixels.size(); ++i) {
         const auto pixel = static_cast<std::uint32_t>(7 * i);
         thin.pixels[i] = map_.background.pixels[pixel];
-        for (const Fragment& f : map_.at_pixel(pixel))
-            thin.pixels[i] += f.reflectance * irradiance_at(cache_, f.patch, f.local);
+        for (const Fragment& f : map_.at_pixel(pixel)) thin.pixels[i] += shown_by(cache_, f);
     }
     gains_.scale.exposure = comparison_exposure(thin);
     points_at_exposure_ = statistics_.points_shaded;

@@ -5,6 +5,7 @@
 #include "sample_selector/gain.h"
 #include "sample_selector/select_samples.h"
 #include "sample_selector/sum_tree.h"
+#include "scene/bsdf.h"
 #include "shading_cache/age_out.h"
 #include "update/shade_work.h"
 #include "update/timings.h"
@@ -26,6 +27,7 @@ struct UpdateSettings {
     std::uint32_t indirect_samples = 400;
     double cycle_seconds = 0.05;          // the length that a cycle adjusts itself to
     double first_picture_seconds = 0.15;  // what the first cycle may spend on shading
+    float cached_facets = kCachedFacets;  // as RayViewSettings has it
     // Cycles of a fixed size, by assumed costs instead of measured ones: the same bits on any
     // machine.
     bool fixed_size = false;
@@ -49,7 +51,7 @@ public:
                 const UpdateSettings& settings);
 
     /// Looks from elsewhere, from the next cycle on. Diffuse shading stays: it does not depend on
-    /// the eye.
+    /// the eye. Glossy shading starts anew if the eye has moved.
     void look_from(const View& view);
 
     /// One cycle. The first after look_from() ends with a picture that covers the whole view.
@@ -68,10 +70,13 @@ public:
 
 private:
     void make_map(ViewQuality quality);
+    void add_glints(std::uint32_t samples);
+    ShadeWork new_work() const;
     void start();
     void dig_out();
     void divide(PatchId patch, int channel, ShadeWork& work);
     std::uint32_t even_out_channel(int channel, double seconds);
+    double first_picture_share(int channel) const;
     void refine();
     void refine_as_paper();
     void shade_or_subdivide(PatchId patch, ShadeWork& work);

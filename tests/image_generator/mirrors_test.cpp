@@ -285,19 +285,53 @@ TEST(Mirrors, ThreadsChangeNothing) {
     }
 }
 
-// Rough metal that absorbs nothing is white in white surroundings. A direction weighs at most 3 and
-// over the picture there are 15000: an error of 0.02 would be more than 4 deviations at the worst.
+// Rough metal that absorbs nothing shows white surroundings white: what lies on what it shows sums
+// to
+// 1. A direction weighs at most 3 and over the picture there are 15000: an error of 0.02 would be
+// more than 4 deviations at the worst. What it shows of lights is left to light samples.
 TEST(Polish, IsWhiteInWhiteSurroundings) {
     for (const float roughness : {0.1f, 0.3f, 0.6f}) {
         Scene scene;
-        add_room(scene, Vec3(-9), Vec3(9), add_material(scene, Rgb(0), Rgb(1)));
+        add_room(scene, Vec3(-9), Vec3(9), add_material(scene, Rgb(1), Rgb(1)));
         add_wall(scene, 0, -5, 5, add_glossy(scene, Rgb(1), metal(roughness)), -5, 5);
         Looking l(std::move(scene), 31, 31);
         const IdMap map = map_of(l, {});
         double sum = 0;
-        for (const Rgb& pixel : map.background.pixels) sum += pixel.g;
+        for (const Fragment& f : map.fragments) sum += f.reflectance.g * kPi;
         EXPECT_NEAR(sum / (31 * 31), 1, 0.02) << roughness;
+        for (const Rgb& pixel : map.background.pixels) EXPECT_EQ(pixel, Rgb(0));
+        float glints = 0;
+        for (const Glint& glint : map.glints) glints += glint.weight.g;
+        EXPECT_NEAR(glints, 31 * 31, 0.1f);
     }
+}
+
+// Facets wide enough for the cache have its glossy radiance: all of the pixel, and no rays. So have
+// they behind a pane, less what it takes; but not in a mirror.
+TEST(Polish, WideFacetsShowTheCachesGlossyRadiance) {
+    RayViewSettings settings;
+    settings.cached_facets = 0.2f;
+    for (const bool pane : {false, true}) {
+        Scene scene;
+        add_wall(scene, 0, -50, 50, add_glossy(scene, Rgb(1), plastic(0.5f)));
+        if (pane) add_wall(scene, 1, -50, 50, add_glossy(scene, Rgb(1), glass(0, true)));
+        Looking l(std::move(scene), 15, 15);
+        const IdMap map = map_of(l, settings);
+        const float through = pane ? 0.96f / 1.04f : 1;
+        for (const Fragment& f : map.fragments)
+            if (f.gloss.g > 0.5f && f.pixel == 7 * 15 + 7) {
+                EXPECT_NEAR(f.gloss.g, through, 1e-3f);
+            }
+        EXPECT_TRUE(map.glints.empty() || pane);
+    }
+    Scene scene;
+    add_wall(scene, 0, -50, 50, add_glossy(scene, Rgb(1), mirror(Rgb(1))));
+    add_wall(scene, 6, -50, 50, add_glossy(scene, Rgb(1), metal(0.5f)));
+    scene.materials[0].base_color = Rgb(0);
+    Looking l(std::move(scene), 15, 15);
+    const IdMap map = map_of(l, settings);
+    for (const Fragment& f : map.fragments) EXPECT_EQ(f.gloss, Rgb(0));
+    EXPECT_FALSE(map.glints.empty());
 }
 
 }  // namespace

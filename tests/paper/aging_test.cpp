@@ -15,7 +15,7 @@ using namespace tiny;
 struct Aged {
     Scene scene = grid(1, 1);
     ShadingCache cache;
-    Aged() : cache(scene, 1, SplitRule::always_four) {
+    Aged() : cache(scene, {1}, SplitRule::always_four) {
         const PatchId root = front_roots(cache)[0];
         Rng rng(1);
         IdMap map = random_map(cache, {root}, 500, rng);

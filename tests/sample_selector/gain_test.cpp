@@ -26,10 +26,11 @@ struct Square {
     std::array<VertexId, 4> corners;
     Rng rng{1};
 
-    explicit Square(int fragments) : cache(scene, 1, SplitRule::always_four) {
+    explicit Square(int fragments) : cache(scene, {1}, SplitRule::always_four) {
         root = cache.root(ObjectId{0}, 0, true);
         corners = cache.patch(root).corners;
         IdMap map = random_map(cache, {root}, fragments, rng);
+        for (Fragment& f : map.fragments) f.reflectance = Rgb(alone());
         attach(cache, map, 1);
     }
     Square(const Square&) = delete;
@@ -38,6 +39,8 @@ struct Square {
     void store(std::array<float, 4> greys, float variance) {
         for (int c = 0; c < 4; ++c) cache.store(corners[c], 0, Rgb(greys[c]), variance, 64, 1);
     }
+    /// Of a pixel that the square fills.
+    float alone() const { return cache.patch(root).reflectance / 255.0f / kPi; }
     Gain gain() const { return chiaro::gain(cache, root, 0, settings()); }
 };
 
@@ -66,6 +69,41 @@ TEST(Gain, IsInProportionToFragmentsOverCost) {
     dear.seconds_a_sample.fill(2e-6f);
     EXPECT_NEAR(one.gain().refine / gain(one.cache, one.root, 0, dear).refine, 2, 1e-4f);
     EXPECT_NEAR(one.gain().resample / gain(one.cache, one.root, 0, dear).resample, 2, 1e-4f);
+}
+
+// What is seen in a mirror that reflects a tenth errs by a tenth: a hundredth of the gain. The
+// pixels' weights have three digits.
+TEST(Gain, FallsWithTheSquareOfWhatIsSeen) {
+    Square straight(100), in_mirror(0);
+    IdMap map = random_map(in_mirror.cache, {in_mirror.root}, 100, in_mirror.rng);
+    for (Fragment& f : map.fragments) f.reflectance = Rgb(0.1f * in_mirror.alone());
+    attach(in_mirror.cache, map, 1);
+    for (Square* s : {&straight, &in_mirror}) s->store({1, 9, 2, 4}, 0.1f);
+    EXPECT_NEAR(straight.gain().refine / in_mirror.gain().refine, 100, 0.5f);
+    EXPECT_NEAR(straight.gain().resample / in_mirror.gain().resample, 100, 0.5f);
+}
+
+// A channel of glossy radiance gains where its gloss shows, and nowhere else; one of irradiance
+// where diffuse light does.
+TEST(Gain, IsOfWhatAChannelLights) {
+    const Scene scene = grid(1, 1);
+    for (const bool gloss : {false, true}) {
+        ShadingCache cache(scene, {.irradiance = 1, .glossy = 1}, SplitRule::always_four);
+        const PatchId root = cache.root(ObjectId{0}, 0, true);
+        Rng rng(1);
+        IdMap map = random_map(cache, {root}, 100, rng);
+        for (Fragment& f : map.fragments) {
+            f.gloss = Rgb(gloss ? 1.0f : 0.0f);
+            f.reflectance = Rgb(gloss ? 0.0f : 1.0f);
+        }
+        attach(cache, map, 1);
+        for (int c = 0; c < 4; ++c)
+            for (int channel = 0; channel < 2; ++channel)
+                cache.store(cache.patch(root).corners[c], channel, Rgb(1.0f + float(c)), 0.1f, 64,
+                            1);
+        EXPECT_EQ(gain(cache, root, 0, settings()).best() > 0, !gloss);
+        EXPECT_EQ(gain(cache, root, 1, settings()).best() > 0, gloss);
+    }
 }
 
 // Where all is flat and known, the suspicion of 4.3 alone is left: epsilon^2 x fragments over the

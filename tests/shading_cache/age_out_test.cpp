@@ -14,7 +14,7 @@ struct Seen {
     ShadingCache cache;
     Rng rng{1};
 
-    Seen() : cache(scene, 1, SplitRule::always_four) {
+    Seen() : cache(scene, {1}, SplitRule::always_four) {
         front_roots(cache);
         for (int n = 0; n < 2; ++n)
             for (const PatchId leaf : leaves(cache)) cache.subdivide(leaf);
@@ -78,7 +78,7 @@ TEST(AgeOut, KeepsTheValuesOfWhatStays) {
     for (std::uint32_t v = 0; v < s.cache.vertices().size(); ++v) {
         const auto id = static_cast<VertexId>(v);
         ASSERT_TRUE(s.cache.evaluated(id, 0));
-        EXPECT_EQ(s.cache.shown(id, 0).irradiance, Rgb(1));
+        EXPECT_EQ(s.cache.shown(id, 0).value, Rgb(1));
     }
     EXPECT_EQ(s.cache.vertices().size(), 25u + 2);  // 5 x 5 of one square, 2 corners of the other
 }

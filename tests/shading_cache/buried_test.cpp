@@ -13,7 +13,7 @@ struct Square {
     PatchId root;
     std::array<VertexId, 4> corners;
 
-    explicit Square(int channels = 1) : cache(scene, channels, SplitRule::always_four) {
+    explicit Square(int channels = 1) : cache(scene, {channels}, SplitRule::always_four) {
         root = cache.root(ObjectId{0}, 0, true);
         corners = cache.patch(root).corners;
     }
@@ -31,12 +31,12 @@ TEST(Buried, TakesTheParentsPrediction) {
     s.store_corners(8);
     const VertexId midpoint = s.cache.patch(s.cache.subdivide(s.root)).corners[1];
     s.cache.store(midpoint, 0, Rgb(0), 0, 16, 1);
-    EXPECT_EQ(s.cache.shown(midpoint, 0).irradiance, Rgb(0));
+    EXPECT_EQ(s.cache.shown(midpoint, 0).value, Rgb(0));
     s.cache.mark_buried(midpoint);
-    EXPECT_EQ(s.cache.shown(midpoint, 0).irradiance, Rgb(8));
+    EXPECT_EQ(s.cache.shown(midpoint, 0).value, Rgb(8));
     EXPECT_EQ(s.cache.shown(midpoint, 0).weight, 1);
     s.cache.resolve();
-    EXPECT_EQ(s.cache.shown(midpoint, 0).irradiance, Rgb(8));
+    EXPECT_EQ(s.cache.shown(midpoint, 0).value, Rgb(8));
 }
 
 // A buried corner of the mesh has no parents: it is hollow and leaves the interpolation, whose
@@ -58,7 +58,7 @@ TEST(Buried, HollowCornersLeaveTheInterpolation) {
         }
         // Nor do they enter predictions.
         const VertexId centre = s.cache.patch(s.cache.subdivide(s.root)).corners[2];
-        EXPECT_EQ(s.cache.shown(centre, 0).irradiance, Rgb(8));
+        EXPECT_EQ(s.cache.shown(centre, 0).value, Rgb(8));
     }
 }
 
@@ -72,7 +72,7 @@ TEST(Buried, HollownessIsInheritedUntilLightIsFound) {
     EXPECT_EQ(s.cache.shown(midpoint, 0).weight, 0);
     s.cache.store(midpoint, 0, Rgb(4), 0, 1, 1);
     EXPECT_EQ(s.cache.shown(midpoint, 0).weight, 1);
-    EXPECT_EQ(s.cache.shown(midpoint, 0).irradiance, Rgb(4));
+    EXPECT_EQ(s.cache.shown(midpoint, 0).value, Rgb(4));
 }
 
 // If nothing is known the picture is black, not undefined.
@@ -113,11 +113,11 @@ TEST(Buried, ExposeBringsBackForGood) {
     s.cache.mark_buried(s.corners[0]);
     EXPECT_EQ(s.cache.shown_total(s.corners[0]).weight, 0);
     s.cache.expose(s.corners[0]);
-    EXPECT_EQ(s.cache.shown_total(s.corners[0]).irradiance, Rgb(8 + 2));
+    EXPECT_EQ(s.cache.shown_total(s.corners[0]).value, Rgb(8 + 2));
     EXPECT_EQ(s.cache.shown_total(s.corners[0]).weight, 1);
     s.cache.mark_buried(s.corners[0]);
     EXPECT_FALSE(s.cache.vertex(s.corners[0]).buried);
-    EXPECT_EQ(s.cache.shown_total(s.corners[0]).irradiance, Rgb(8 + 2));
+    EXPECT_EQ(s.cache.shown_total(s.corners[0]).value, Rgb(8 + 2));
 }
 
 // A vertex is dark when all channels were evaluated and none has found light; one that has is

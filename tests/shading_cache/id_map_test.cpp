@@ -69,7 +69,7 @@ TEST(IdMap, FragmentsStayInPlaceWhateverIsDivided) {
         for (const SplitRule rule : {SplitRule::always_four, SplitRule::by_shape}) {
             Rng rng(1);
             const Scene scene = grid(3, 2, triangles, stretched(4));
-            ShadingCache cache(scene, 1, rule);
+            ShadingCache cache(scene, {1}, rule);
             const auto roots = front_roots(cache);
             subdivide_at_random(cache, 100, rng);
             IdMap map = random_map(cache, roots, 3000, rng);
@@ -91,7 +91,7 @@ TEST(IdMap, FragmentsStayInPlaceWhateverIsDivided) {
 TEST(IdMap, OnlyWhatIsInViewIsMarkedAsSeen) {
     Rng rng(2);
     const Scene scene = grid(2, 1);
-    ShadingCache cache(scene, 1, SplitRule::always_four);
+    ShadingCache cache(scene, {1}, SplitRule::always_four);
     const auto roots = front_roots(cache);
     subdivide_at_random(cache, 30, rng);
     IdMap map = random_map(cache, {roots[0]}, 50, rng);
@@ -110,7 +110,7 @@ TEST(IdMap, OnlyWhatIsInViewIsMarkedAsSeen) {
 TEST(IdMap, AnotherViewStartsAnew) {
     Rng rng(3);
     const Scene scene = grid(2, 1);
-    ShadingCache cache(scene, 1, SplitRule::always_four);
+    ShadingCache cache(scene, {1}, SplitRule::always_four);
     const auto roots = front_roots(cache);
     IdMap first = random_map(cache, roots, 500, rng);
     attach(cache, first, 1);
@@ -127,12 +127,38 @@ TEST(IdMap, AnotherViewStartsAnew) {
 TEST(IdMap, FragmentsAreFoundByPixel) {
     Rng rng(4);
     const Scene scene = grid(1, 1);
-    ShadingCache cache(scene, 1, SplitRule::always_four);
+    ShadingCache cache(scene, {1}, SplitRule::always_four);
     const IdMap map = random_map(cache, front_roots(cache), 10, rng);
     for (std::uint32_t p = 0; p < 10; ++p) {
         ASSERT_EQ(map.at_pixel(p).size(), 1u);
         EXPECT_EQ(map.at_pixel(p)[0].pixel, p);
     }
+}
+
+// A patch weighs the squares of its shares of pixels: alone in one 1, in two quarters of one 1/4,
+// in two halves that each shine half as much 1/4 too. Gloss weighs by itself.
+TEST(IdMap, PatchesWeighTheSquaresOfTheirShares) {
+    const Scene scene = grid(1, 1);
+    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const PatchId root = front_roots(cache)[0];
+    const float alone = cache.patch(root).reflectance / 255.0f / kPi;
+    IdMap map;
+    map.width = 3;
+    map.height = 1;
+    map.background = Image(3, 1);
+    map.first_of_pixel = {0, 1, 3, 5};
+    const Vec2 at(0.1f, 0.2f);
+    map.fragments = {{0, root, at, Rgb(alone), Rgb(1)},
+                     {1, root, at, Rgb(alone / 4)},
+                     {1, root, at, Rgb(alone / 4)},
+                     {2, root, at, Rgb(alone / 4), Rgb(0.5f)},
+                     {2, root, at, Rgb(alone / 4)}};
+    attach(cache, map, 1);
+    EXPECT_NEAR(cache.patch(root).pixels, 1.5f, 0.01f);
+    EXPECT_NEAR(cache.patch(root).glossy_pixels, 1.25f, 0.01f);
+    const PatchId child = subdivide_seen(cache, map, root, 1);
+    EXPECT_NEAR(cache.patch(child).pixels, 1.5f, 0.01f);
+    EXPECT_EQ(cache.patch(offset_by(child, 2)).pixels, 0);
 }
 
 }  // namespace

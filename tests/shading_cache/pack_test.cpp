@@ -28,7 +28,7 @@ void expect_same_tree(const ShadingCache& before, PatchId a, const ShadingCache&
         EXPECT_EQ(before.vertex(v).buried, after.vertex(w).buried);
         EXPECT_EQ(before.vertex(v).exposed, after.vertex(w).exposed);
         EXPECT_EQ(before.vertex(v).hollow, after.vertex(w).hollow);
-        EXPECT_EQ(before.shown(v, 0).irradiance, after.shown(w, 0).irradiance);
+        EXPECT_EQ(before.shown(v, 0).value, after.shown(w, 0).value);
         const Estimate *e = before.estimate(v, 0), *f = after.estimate(w, 0);
         ASSERT_EQ(e != nullptr, f != nullptr);
         if (e) {
@@ -50,7 +50,7 @@ struct Divided {
     std::vector<PatchId> roots;
 
     explicit Divided(std::uint64_t seed, bool triangles = false)
-        : scene(grid(3, 2, triangles)), cache(scene, 1, SplitRule::by_shape) {
+        : scene(grid(3, 2, triangles)), cache(scene, {1}, SplitRule::by_shape) {
         Rng rng(seed);
         roots = front_roots(cache);
         subdivide_at_random(cache, 300, rng);
@@ -131,7 +131,7 @@ TEST(Pack, KeepsThePictureElsewhere) {
 // An edge that one side gave up keeps the other side's midpoint, and divided anew shares it.
 TEST(Pack, EdgesAreStillShared) {
     const Scene scene = grid(2, 1);
-    ShadingCache cache(scene, 1, SplitRule::always_four);
+    ShadingCache cache(scene, {1}, SplitRule::always_four);
     const auto roots = front_roots(cache);
     for (const PatchId root : roots) cache.subdivide(root);
     ASSERT_EQ(cache.vertices().size(), 6u + 5 + 4);
@@ -147,7 +147,7 @@ TEST(Pack, EdgesAreStillShared) {
 // Corners of the mesh are still welded to roots that are made later.
 TEST(Pack, CornersAreStillWelded) {
     const Scene scene = grid(3, 1);
-    ShadingCache cache(scene, 1, SplitRule::always_four);
+    ShadingCache cache(scene, {1}, SplitRule::always_four);
     const PatchId first = cache.root(ObjectId{0}, 0, true);
     cache.subdivide(first);
     const PatchId second = cache.root(ObjectId{0}, 1, true);
@@ -180,7 +180,7 @@ TEST(Pack, GivesAllMemoryBack) {
     EXPECT_EQ(d.cache.patches().size(), 6u);
     EXPECT_EQ(d.cache.vertices().size(), 12u);
     EXPECT_LT(d.cache.bytes(), full);
-    ShadingCache fresh(d.scene, 1, SplitRule::by_shape);
+    ShadingCache fresh(d.scene, {1}, SplitRule::by_shape);
     front_roots(fresh);
     store_constant(fresh, Rgb(1));
     fresh.pack();

@@ -18,7 +18,7 @@ struct Square {
     VertexId midpoint;  // of corners 0 and 1
     VertexId centre;
 
-    explicit Square(int channels = 1) : cache(scene, channels, SplitRule::always_four) {
+    explicit Square(int channels = 1) : cache(scene, {channels}, SplitRule::always_four) {
         root = cache.root(ObjectId{0}, 0, true);
         corners = cache.patch(root).corners;
         const PatchId child = cache.subdivide(root);
@@ -32,7 +32,7 @@ struct Square {
         for (int c = 0; c < 4; ++c) cache.store(corners[c], 0, Rgb(greys[c]), variance, 1, 1);
         cache.resolve();
     }
-    Rgb shown(VertexId v, int channel = 0) const { return cache.shown(v, channel).irradiance; }
+    Rgb shown(VertexId v, int channel = 0) const { return cache.shown(v, channel).value; }
 };
 
 // n1 samples of mean m1 and n2 of m2 have the mean (n1 m1 + n2 m2) / n, and the mean's variance is
@@ -133,7 +133,7 @@ TEST(Values, AMissWithinTheNoiseIsNoSurplus) {
     s.store_corners({2, 2, 2, 2}, 1);
     const Estimate& corner = *s.cache.estimate(s.corners[0], 0);
     EXPECT_EQ(corner.surplus, Estimate::kUnknown);  // nothing predicted it
-    const float of_corner = s.cache.surplus(s.corners[0], corner);
+    const float of_corner = s.cache.surplus(s.corners[0], 0);
     EXPECT_GT(of_corner, 0);
     EXPECT_LT(of_corner, 2);                        // a part of all light there
     s.cache.store(s.midpoint, 0, Rgb(4), 1, 1, 1);  // 2^2 < 3 x 1.5
@@ -165,7 +165,32 @@ TEST(Values, ChannelsAreIndependent) {
     EXPECT_FALSE(s.cache.evaluated(s.centre, 0));
     EXPECT_EQ(s.shown(s.centre, 0), Rgb(1));
     EXPECT_EQ(s.shown(s.centre, 1), Rgb(32));
-    EXPECT_EQ(s.cache.shown_total(s.centre).irradiance, Rgb(1 + 32 + 4));
+    EXPECT_EQ(s.cache.shown_total(s.centre).value, Rgb(1 + 32 + 4));
+}
+
+// Glossy radiance is no part of the irradiance, and is given up for another eye; the rest stays.
+TEST(Values, GlossyChannelsAreTheEyesOwn) {
+    const Scene scene = grid(1, 1);
+    ShadingCache cache(scene, {.irradiance = 2, .glossy = 1}, SplitRule::always_four);
+    const PatchId root = cache.root(ObjectId{0}, 0, true);
+    cache.subdivide(root);
+    cache.patch(root).refined_channels = 7;
+    for (std::uint32_t v = 0; v < cache.vertices().size(); ++v)
+        for (int c = 0; c < 3; ++c)
+            cache.store(static_cast<VertexId>(v), c, Rgb(std::exp2(static_cast<float>(c))), 0, 1,
+                        1);
+    const VertexId corner = cache.patch(root).corners[0];
+    EXPECT_EQ(cache.shown_total(corner).value, Rgb(1 + 2));
+    EXPECT_EQ(cache.shown_total(corner, Shading::glossy).value, Rgb(4));
+
+    cache.forget_glossy();
+    cache.resolve();
+    EXPECT_EQ(cache.shown_total(corner).value, Rgb(1 + 2));
+    EXPECT_EQ(cache.shown_total(corner, Shading::glossy).value, Rgb(0));
+    EXPECT_FALSE(cache.evaluated(corner, 2));
+    EXPECT_EQ(cache.patch(root).refined_channels, 3);
+    cache.store(corner, 2, Rgb(8), 0, 1, 2);
+    EXPECT_EQ(cache.shown(corner, 2).value, Rgb(8));
 }
 
 }  // namespace

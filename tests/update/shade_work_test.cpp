@@ -30,7 +30,7 @@ struct Desk {
     Clerk clerk;
     PatchId root;
 
-    Desk() : scene(floor()), cache(scene, 2, SplitRule::by_shape) {
+    Desk() : scene(floor()), cache(scene, {2}, SplitRule::by_shape) {
         root = cache.root(ObjectId(0), 0, true);
     }
     static Scene floor() {
