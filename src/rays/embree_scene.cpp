@@ -176,6 +176,7 @@ void EmbreeScene::attach(RTCScene mesh_scene, RTCBuffer positions, const Mesh& m
                                quads ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3, mesh.primitives.data(),
                                first * sizeof(Primitive), sizeof(Primitive), count);
     if (any_see_through(mesh, scene)) {
+        any_filter_ = true;
         rtcSetGeometryIntersectFilterFunction(geometry, see_through_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, see_through_filter);
     }

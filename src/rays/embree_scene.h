@@ -51,6 +51,8 @@ public:
     }
     /// True if the camera looks through any surface from behind.
     bool any_single_sided() const { return any_single_sided_; }
+    /// True if any surface may let rays pass.
+    bool any_filter() const { return any_filter_; }
 
     void set_transform(const Scene& scene, ObjectId object);
 
@@ -79,6 +81,7 @@ private:
     std::vector<std::vector<bool>> curved_;  // by mesh, by primitive; empty: all are flat
     std::vector<Instance> objects_;
     bool any_single_sided_ = false;
+    bool any_filter_ = false;
 };
 
 }  // namespace chiaro

@@ -47,6 +47,7 @@ struct PacketContext {
     Rgb* through = nullptr;
     SeamsMet* seams = nullptr;  // with `through`
     LayersMet* layers = nullptr;
+    RayLog* log = nullptr;  // takes packets before they are cast
 };
 
 /// Drops the hits that the PacketContext says to pass through.

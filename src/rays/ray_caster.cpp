@@ -1,8 +1,7 @@
 #include "rays/ray_caster.h"
 
 #include "base/error.h"
-#include "rays/embree_scene.h"
-#include "rays/filter.h"
+#include "rays/packet.h"
 
 #include <algorithm>
 #include <array>
@@ -42,39 +41,14 @@ void fill_rays(RTCRay16& packet, int* active, std::span<const Ray> rays) {
         packet.dir_z[i] = ray.direction.z;
         packet.tnear[i] = ray.t_min;
         packet.tfar[i] = on ? ray.t_max : -1.0f;
-        packet.time[i] = 0;
-        packet.mask[i] = 0xffff'ffffU;
-        packet.id[i] = static_cast<unsigned>(i);
-        packet.flags[i] = 0;
         active[i] = on ? -1 : 0;
     }
+    fill_constant_rows(packet);
     check_rays(packet);
 }
 
 std::span<const Ray> packet_at(std::span<const Ray> rays, std::size_t first) {
     return rays.subspan(first, std::min(kPacket, rays.size() - first));
-}
-
-struct CastSettings {
-    FilterKind kind = FilterKind::chance;
-    bool camera = false;
-    bool coherent = false;
-};
-
-PacketContext make_context(const EmbreeScene& embree, const Scene& scene,
-                           const CastSettings& settings) {
-    PacketContext context;
-    rtcInitIntersectContext(&context.embree);
-    context.embree.flags = settings.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                             : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    // See-through meshes have the filter of their own; single-sided ones are nothing special to any
-    // ray but the camera's.
-    if (settings.camera && embree.any_single_sided()) context.embree.filter = see_through_filter;
-    context.embree_scene = &embree;
-    context.scene = &scene;
-    context.kind = settings.kind;
-    context.camera = settings.camera;
-    return context;
 }
 
 Hit make_hit(const EmbreeScene& scene, const RawHit& raw, const Ray& ray) {
@@ -110,11 +84,9 @@ bool nearer(const RawHit& a, const RawHit& b) {
 void intersect_packet(RTCRayHit16& packet, std::span<const Ray> rays, PacketContext& context) {
     alignas(64) int active[kPacket];
     fill_rays(packet.ray, active, rays);
-    for (std::size_t i = 0; i < kPacket; ++i) {
-        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
+    forget_hits(packet.hit);
     context.rays = rays.data();
+    if (context.log != nullptr) write_down(packet.ray, active, false, context, *context.log);
     rtcIntersect16(active, context.embree_scene->top(), &context.embree, &packet);
 }
 
@@ -131,9 +103,21 @@ void intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, PacketCon
 
 }  // namespace
 
-struct RayCaster::Embree {
-    EmbreeScene scene;
-};
+PacketContext make_context(const EmbreeScene& embree, const Scene& scene,
+                           const CastSettings& settings) {
+    PacketContext context;
+    rtcInitIntersectContext(&context.embree);
+    context.embree.flags = settings.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                             : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    // See-through meshes have the filter of their own; single-sided ones are nothing special to any
+    // ray but the camera's.
+    if (settings.camera && embree.any_single_sided()) context.embree.filter = see_through_filter;
+    context.embree_scene = &embree;
+    context.scene = &scene;
+    context.kind = settings.kind;
+    context.camera = settings.camera;
+    return context;
+}
 
 RayCaster::RayCaster(const Scene& scene, int threads)
     : scene_(&scene), embree_(new Embree{EmbreeScene(scene, threads)}) {}
@@ -142,15 +126,18 @@ RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
 void RayCaster::intersect(std::span<const Ray> rays, std::span<Hit> hits, RayKind kind) const {
-    intersect_packets(rays, hits,
-                      make_context(embree_->scene, *scene_, {.camera = kind == RayKind::camera}));
+    PacketContext context =
+        make_context(embree_->scene, *scene_, {.camera = kind == RayKind::camera});
+    context.log = log_;
+    intersect_packets(rays, hits, context);
 }
 
 void RayCaster::intersect_coherent(std::span<const Ray> rays, std::span<Hit> hits,
                                    RayKind kind) const {
-    intersect_packets(rays, hits,
-                      make_context(embree_->scene, *scene_,
-                                   {.camera = kind == RayKind::camera, .coherent = true}));
+    PacketContext context = make_context(embree_->scene, *scene_,
+                                         {.camera = kind == RayKind::camera, .coherent = true});
+    context.log = log_;
+    intersect_packets(rays, hits, context);
 }
 
 void RayCaster::transmittance(std::span<const Ray> rays, std::span<Rgb> through) const {
@@ -168,6 +155,7 @@ void RayCaster::transmittance(std::span<const Ray> rays, std::span<Rgb> through)
         for (SeamsMet& met : seams) met.count = 0;
         left.fill(Rgb(1));
         context.rays = some.data();
+        if (log_ != nullptr) write_down(packet, active, true, context, *log_);
         rtcOccluded16(active, embree_->scene.top(), &context.embree, &packet);
 
         // Embree marks a blocked ray by an infinite negative end.

@@ -1,6 +1,7 @@
 // Nearest hits and occlusion against a scene; the only folder that includes Embree.
 #pragma once
 
+#include "rays/ray_log.h"
 #include "scene/surface.h"
 
 #include <memory>
@@ -81,12 +82,19 @@ public:
     /// True if the shading normal is the geometric one everywhere on the point's primitive.
     bool flat(const SurfacePoint& point) const;
 
+    /// From now on writes down in `log` the packets of intersect(), intersect_coherent() and
+    /// transmittance(); null: no longer. Meanwhile one thread alone casts.
+    void record(RayLog* log) { log_ = log; }
+
     const Scene& scene() const { return *scene_; }
 
 private:
+    friend double replay(const RayCaster& caster, std::span<const LoggedPacket> packets);
+
     struct Embree;
     const Scene* scene_;
     std::unique_ptr<Embree> embree_;
+    RayLog* log_ = nullptr;
 };
 
 }  // namespace chiaro
