@@ -5,17 +5,26 @@
 
 namespace chiaro {
 
+/// hash32() of words of 32 bits, or of eight side by side (base/wide.h).
+template <typename Word>
+Word mixed_bits(Word x) {
+    x = x ^ (x >> 16);
+    x = x * Word(0x7feb352dU);
+    x = x ^ (x >> 15);
+    x = x * Word(0x846ca68bU);
+    return x ^ (x >> 16);
+}
+template <typename Word>
+Word mixed_bits(Word a, Word b) {
+    return mixed_bits(a ^ (mixed_bits(b) + Word(0x9e3779b9U) + (a << 6) + (a >> 2)));
+}
+
 /// Mixes 32 bits so that every input bit affects every output bit ("lowbias32", C. Wellons 2018).
 inline std::uint32_t hash32(std::uint32_t x) {
-    x ^= x >> 16;
-    x *= 0x7feb352dU;
-    x ^= x >> 15;
-    x *= 0x846ca68bU;
-    x ^= x >> 16;
-    return x;
+    return mixed_bits(x);
 }
 inline std::uint32_t hash32(std::uint32_t a, std::uint32_t b) {
-    return hash32(a ^ (hash32(b) + 0x9e3779b9U + (a << 6) + (a >> 2)));
+    return mixed_bits(a, b);
 }
 
 inline std::uint32_t hash64(std::uint64_t x) {

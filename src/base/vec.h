@@ -1,8 +1,10 @@
 // Vectors, rays and boxes. Space is right-handed; lengths are in scene units (metres in glTF).
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
+#include <type_traits>
 
 namespace chiaro {
 
@@ -42,17 +44,28 @@ struct Box {
     }
 };
 
-/// Two unit vectors that form a right-handed frame with the unit vector `n` as third axis
-/// (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
+/// `v` of the frame whose third axis is the unit vector `n`, in the space of `n`; right-handed
+/// (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017). For Vec3 and Vec3x8.
+template <typename Vector>
+Vector from_frame(const Vector& n, const Vector& v) {
+    using std::copysign;
+    using Number = std::remove_cvref_t<decltype(n.x)>;
+    const auto sign = copysign(Number(1), n.z);
+    const auto a = Number(-1) / (sign + n.z);
+    const auto b = n.x * n.y * a;
+    const auto along_s = v.x, along_t = v.y;
+    return {along_s * (Number(1) + sign * n.x * n.x * a) + along_t * b + v.z * n.x,
+            along_s * sign * b + along_t * (sign + n.y * n.y * a) + v.z * n.y,
+            v.z * n.z - along_s * sign * n.x - along_t * n.y};
+}
+
+/// The same frame, to go both ways.
 struct Frame {
     Vec3 s, t, n;
-    explicit Frame(Vec3 normal) : n(normal) {
-        const float sign = n.z < 0 ? -1.0f : 1.0f;
-        const float a = -1.0f / (sign + n.z);
-        const float b = n.x * n.y * a;
-        s = Vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
-        t = Vec3(b, sign + n.y * n.y * a, -n.y);
-    }
+    explicit Frame(Vec3 normal)
+        : s(from_frame(normal, Vec3(1, 0, 0))),
+          t(from_frame(normal, Vec3(0, 1, 0))),
+          n(normal) {}
     Vec3 to_world(Vec3 v) const { return v.x * s + v.y * t + v.z * n; }
     Vec3 to_local(Vec3 v) const { return {glm::dot(s, v), glm::dot(t, v), glm::dot(n, v)}; }
 };

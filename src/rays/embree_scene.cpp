@@ -112,6 +112,8 @@ void EmbreeScene::build(const Scene& scene) {
         Instance& instance = objects_[i];
         instance.mesh = index_of(scene.objects[i].mesh);
         instance.quad_count = scene.mesh_of(scene.objects[i]).quad_count;
+        const std::vector<bool>& curved = curved_[instance.mesh];
+        instance.any_curved = std::find(curved.begin(), curved.end(), true) != curved.end();
         instance.geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(instance.geometry, meshes_[index_of(scene.objects[i].mesh)]);
         place(scene, i);

@@ -44,10 +44,19 @@ public:
     }
     /// Largest coordinate in world space of the object's corners, at least its box.
     float extent(std::uint32_t object) const { return objects_[object].extent; }
+    /// What an object is to Embree.
+    struct Instance {
+        RTCGeometry geometry = nullptr;  // null: the object shows nothing
+        Mat3 normal_matrix = Mat3(1);
+        std::size_t mesh = 0;
+        std::uint32_t quad_count = 0;
+        float extent = 0;
+        bool any_curved = false;
+    };
+    const Instance& instance(std::uint32_t object) const { return objects_[object]; }
     /// True if the primitive's normals are its geometric one everywhere, or absent.
-    bool flat(const SurfacePoint& point) const {
-        const std::vector<bool>& curved = curved_[objects_[index_of(point.object)].mesh];
-        return curved.empty() || !curved[point.primitive];
+    bool flat(const Instance& of, std::uint32_t primitive) const {
+        return !of.any_curved || !curved_[of.mesh][primitive];
     }
     /// True if the camera looks through any surface from behind.
     bool any_single_sided() const { return any_single_sided_; }
@@ -57,13 +66,6 @@ public:
     void set_transform(const Scene& scene, ObjectId object);
 
 private:
-    struct Instance {
-        RTCGeometry geometry = nullptr;  // null: the object shows nothing
-        Mat3 normal_matrix = Mat3(1);
-        std::size_t mesh = 0;
-        std::uint32_t quad_count = 0;
-        float extent = 0;
-    };
     void build(const Scene& scene);
     RTCSceneFlags scene_flags() const;
     void build_mesh(MeshId mesh, const Scene& scene);

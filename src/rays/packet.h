@@ -1,6 +1,7 @@
 // Packets of rays on their way to Embree; only the files of this folder include this.
 #pragma once
 
+#include "base/vec8.h"
 #include "rays/embree_scene.h"
 #include "rays/filter.h"
 #include "rays/ray_caster.h"
@@ -36,6 +37,21 @@ inline void fill_constant_rows(RTCRay16& packet) {
         packet.id[i] = static_cast<unsigned>(i);
         packet.flags[i] = 0;
     }
+}
+
+/// At most 16 rays as Embree wants them: component by component, but for fill_constant_rows(). Lanes without a ray repeat the
+/// first one, since every lane must be finite, and are switched off. Checks: every ray is finite.
+void fill_rays(RTCRay16& packet, int* active, std::span<const Ray> rays);
+
+/// What one ray, or the first lanes of a packet that was cast, met.
+Hit make_hit(const EmbreeScene& scene, const RawHit& raw, const Ray& ray);
+void make_hits(const EmbreeScene& scene, const RTCRayHit16& packet, std::span<Hit> hits);
+
+/// How far off a surface rays must start: what coordinates of the place and up to `extent` round
+/// by, and more. For Vec3 and Vec3x8.
+template <typename Vector, typename Number>
+Number offset_at(const Vector& position, Number extent) {
+    return Number(1e-6f) + Number(1e-5f) * largest(position) + Number(1e-6f) * extent;
 }
 
 /// Appends the packet, not yet cast, to the log.

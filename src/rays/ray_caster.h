@@ -15,8 +15,10 @@ namespace chiaro {
 struct Hit {
     SurfacePoint point;
     float t = kInfinity;  // in multiples of the ray's direction
-    bool front = true;    // met the front face (counter-clockwise winding toward the origin)
+    float offset = 0;     // how far to start a ray from here so that it does not meet this again
     Vec3 normal = Vec3(0, 0, 1);  // unit geometric normal of the front face, world space
+    bool front = true;  // met the front face (counter-clockwise winding toward the origin)
+    bool flat = true;   // the shading normal is the geometric one everywhere on the primitive
 
     explicit operator bool() const { return point.object != ObjectId::none; }
 };
@@ -78,9 +80,6 @@ public:
     /// As above at a point of `object`, whose far corners round more coarsely than `position` may
     /// tell.
     float offset(Vec3 position, ObjectId object) const;
-
-    /// True if the shading normal is the geometric one everywhere on the point's primitive.
-    bool flat(const SurfacePoint& point) const;
 
     /// From now on writes down in `log` the packets of intersect(), intersect_coherent() and
     /// transmittance(); null: no longer. Meanwhile one thread alone casts.

@@ -1,7 +1,5 @@
 #include "sample_renderer/next_event.h"
 
-#include "sample_renderer/warp.h"
-
 #include <cmath>
 
 namespace chiaro {
@@ -52,8 +50,14 @@ Receiver make_receiver(const RayCaster& caster, ObjectId object, Vec3 position,
 }
 
 Vec3 sample_receiving_cosine(const Receiver& receiver, Vec2 u) {
-    const Vec3 w = Frame(receiver.shading_normal).to_world(square_to_cosine_hemisphere(u));
+    const Vec3 w = from_frame(receiver.shading_normal, square_to_cosine_hemisphere(u));
     return glm::dot(receiver.geometric_normal, w) > 0 ? w : mirrored(receiver, w);
+}
+
+Vec3x8 sample_receiving_cosine(const Receiver8& receiver, const Vec2x8& u) {
+    const Vec3x8 w = from_frame(receiver.shading_normal, square_to_cosine_hemisphere(u));
+    const Float8 above = dot(receiver.geometric_normal, w);
+    return w + larger(Float8(0), Float8(-2) * above) * receiver.geometric_normal;
 }
 
 float pdf_receiving_cosine(const Receiver& receiver, Vec3 w) {
@@ -96,6 +100,44 @@ std::optional<LightConnection> connect_area_light(const LitScene& lit, const Rec
     connection.cosine = view->cosine;
     connection.irradiance = view->radiance * (connection.cosine / connection.pdf_solid_angle);
     return connection;
+}
+
+LightConnections8 connect_area_light(const LitScene& lit, const Receiver8& receivers,
+                                     Float8 choice, const Vec2x8& spot, unsigned lanes) {
+    const Lanes3 places(receivers.position), origins(receivers.origin),
+        normals(receivers.geometric_normal), numbers({choice, spot.x, spot.y});
+    Lanes3 positions, light_normals, radiances;
+    alignas(32) float pdf_area[kLanes] = {}, lifts[kLanes] = {};
+    for_each_lane(lanes, [&](int i) {
+        const Vec3 number = numbers.lane(i);
+        const auto sample = lit.area_lights.sample({origins.lane(i), normals.lane(i)}, number.x,
+                                                   {number.y, number.z});
+        if (!sample) return;
+        positions.set(i, sample->position);
+        light_normals.set(i, sample->normal);
+        radiances.set(i, lit.area_lights.eval(*sample, places.lane(i) - sample->position));
+        pdf_area[i] = sample->pdf_area;
+        lifts[i] = lit.caster.offset(sample->position, sample->point.object);
+    });
+
+    const Float8 zero(0);
+    const Vec3x8 position = positions.all(), normal = light_normals.all();
+    const Vec3x8 between = position - receivers.position;
+    const Float8 squared = dot(between, between);
+    const Vec3x8 to_light = (Float8(1) / sqrt(squared)) * between;
+    const Float8 signed_light_cosine = zero - dot(normal, to_light);
+    const Float8 light_cosine = abs(signed_light_cosine);
+    const Vec3x8 end = position + copysign(load8(lifts), signed_light_cosine) * normal;
+
+    LightConnections8 c;
+    c.shadow_direction = end - receivers.origin;
+    c.cosine = receiving_cosine(receivers, to_light);
+    c.pdf_solid_angle = load8(pdf_area) * squared / light_cosine;
+    c.irradiance = (c.cosine / c.pdf_solid_angle) * radiances.all();
+    c.found = lanes & ((squared > zero) & (light_cosine > zero) & (c.cosine > zero) &
+                       (max_component(radiances.all()) > zero))
+                          .lanes();
+    return c;
 }
 
 std::optional<LightConnection> connect_punctual(const LitScene& lit, const Receiver& receiver,

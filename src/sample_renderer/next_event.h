@@ -5,6 +5,7 @@
 #include "rays/ray_caster.h"
 #include "sample_renderer/flat_mirrors.h"
 #include "sample_renderer/punctual_lights.h"
+#include "sample_renderer/warp.h"
 #include "scene/area_lights.h"
 #include "scene/environment_light.h"
 
@@ -35,6 +36,11 @@ struct Receiver {
 Receiver make_receiver(const RayCaster& caster, ObjectId object, Vec3 position,
                        Vec3 geometric_normal, Vec3 shading_normal);
 
+/// Eight receivers.
+struct Receiver8 {
+    Vec3x8 position, origin, geometric_normal, shading_normal;
+};
+
 /// The same place, receiving on its other side.
 inline Receiver other_side(const Receiver& r) {
     return {r.position, 2.0f * r.position - r.origin, -r.geometric_normal, -r.shading_normal};
@@ -54,18 +60,21 @@ inline Vec3 mirrored(const Receiver& receiver, Vec3 w) {
 /// What light from unit direction `w` counts for in irradiance: the cosine about the shading
 /// normal. The part of its hemisphere that lies below the real plane is folded up, so that the
 /// whole is pi on any surface and no light is lost where normals are interpolated; 0 below that
-/// plane.
-inline float receiving_cosine(const Receiver& receiver, Vec3 w) {
-    const float above = glm::dot(receiver.geometric_normal, w);
-    if (above <= 0) return 0;
-    const float cosine = glm::dot(receiver.shading_normal, w);
-    const float of_mirrored =
-        cosine - 2 * above * glm::dot(receiver.geometric_normal, receiver.shading_normal);
-    return std::max(0.0f, cosine) + std::max(0.0f, of_mirrored);
+/// plane. For Receiver and Receiver8.
+template <typename AnyReceiver, typename Vector>
+auto receiving_cosine(const AnyReceiver& receiver, const Vector& w) {
+    using Number = std::remove_cvref_t<decltype(w.x)>;
+    const Number zero(0);
+    const Number above = dot(receiver.geometric_normal, w);
+    const Number cosine = dot(receiver.shading_normal, w);
+    const Number of_mirrored =
+        cosine - Number(2) * above * dot(receiver.geometric_normal, receiver.shading_normal);
+    return select(above > zero, larger(zero, cosine) + larger(zero, of_mirrored), zero);
 }
 
 /// A direction of density receiving_cosine() / pi over solid angle; `u` in [0, 1)^2.
 Vec3 sample_receiving_cosine(const Receiver& receiver, Vec2 u);
+Vec3x8 sample_receiving_cosine(const Receiver8& receiver, const Vec2x8& u);
 float pdf_receiving_cosine(const Receiver& receiver, Vec3 w);
 
 /// A sample of the light at a receiver, before it is known whether it is blocked.
@@ -105,6 +114,18 @@ std::optional<AreaLightView> view_area_light(const LitScene& lit, const Receiver
 /// AreaLights::sample() has them. Checks: there are area lights.
 std::optional<LightConnection> connect_area_light(const LitScene& lit, const Receiver& receiver,
                                                   float choice, Vec2 spot);
+
+/// The same for the receivers of `lanes`, a bit each; `found` tells of which there is something.
+struct LightConnections8 {
+    unsigned found;
+    Vec3x8 shadow_direction;  // the ray starts at the receiver's origin and ends at 1
+    Vec3x8 irradiance;
+    Float8 cosine, pdf_solid_angle;
+
+    Float8 pdf_cosine() const { return cosine * Float8(1 / kPi); }
+};
+LightConnections8 connect_area_light(const LitScene& lit, const Receiver8& receivers,
+                                     Float8 choice, const Vec2x8& spot, unsigned lanes);
 
 /// Punctual light `index`; nothing if it cannot shine on the receiver.
 std::optional<LightConnection> connect_punctual(const LitScene& lit, const Receiver& receiver,

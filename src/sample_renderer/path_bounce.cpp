@@ -1,6 +1,6 @@
 #include "sample_renderer/path_bounce.h"
 
-#include "sample_renderer/mirror_light.h"
+#include "sample_renderer/path_lights.h"
 #include "scene/scattering.h"
 
 #include <algorithm>
@@ -8,40 +8,8 @@
 namespace chiaro {
 namespace {
 
-constexpr float kMostSurvival = 0.98f;  // or a closed room of albedo 1 would never end
-
-// Numbers of their own, so that those of all else stay what they are without an environment.
-constexpr std::uint32_t kSkySalt = 0x5c1e5a17;
-
 // Up to here a path ends at no smooth surface by roulette: no light sample took what it may find.
 constexpr std::uint32_t kSureBounces = 8;
-
-// Lamps in mirrors that are tried at a bounce.
-constexpr std::size_t kImagesABounce = 64;
-
-// Asks one light of each kind: none takes samples from another, which may be hidden where it seems
-// brightest. Calls add(connection).
-template <typename Add>
-void connect_lights(const LitScene& lit, const Receiver& receiver, const Path& path,
-                    const Add& add) {
-    if (!lit.area_lights.empty())
-        if (const auto found =
-                connect_area_light(lit, receiver, path.light_choice, path.light_place))
-            add(*found);
-    if (!lit.punctual.lamps().empty())
-        if (const auto found = connect_lamp(lit, receiver, path.light_choice)) add(*found);
-    if (!lit.punctual.suns().empty())
-        if (const auto found = connect_sun(lit, receiver, path.light_choice)) add(*found);
-    if (!lit.environment.empty())
-        if (const auto found = connect_environment(lit, receiver, path.sky_place)) add(*found);
-    for_each_image(lit, receiver, path.light_choice, kImagesABounce, add);
-}
-
-// Weight of a light sample against a ray of density `pdf` in its direction.
-float light_weight(const LightConnection& connection, float pdf) {
-    const float of_light = connection.pdf_solid_angle;
-    return of_light > 0 ? of_light / (of_light + pdf) : 1.0f;
-}
 
 // Light that a surface which is not Lambertian scatters into the path; `receiver` faces the side
 // that the lights are on.
@@ -60,8 +28,7 @@ void draw_light_numbers(const Bounce& here, BounceNumbers& numbers, Path& path) 
     if (here.number == 0) return;
     path.light_choice = numbers.next();
     path.light_place = numbers.next_pair();
-    if (!here.lit.environment.empty())
-        path.sky_place = BounceNumbers(path.key ^ kSkySalt, here.number).next_pair();
+    draw_sky_numbers(here.lit, here.number, path);
 }
 
 // Russian roulette on what the path has come to carry; false if it ends.
@@ -102,7 +69,7 @@ MetSurface describe(const LitScene& lit, const Hit& hit) {
     const Mesh& mesh = scene.mesh_of(scene.objects[index_of(hit.point.object)]);
     const Material& material = scene.material(mesh.primitives[hit.point.primitive].material);
     const Vec3 shading =
-        lit.caster.flat(hit.point) ? hit.normal : shading_normal(scene, hit.point, hit.normal);
+        hit.flat ? hit.normal : shading_normal(scene, hit.point, hit.normal);
     const bool plain = !material.base_color_texture.used() && mesh.colors.empty();
 
     const float side = hit.front ? 1.0f : -1.0f;
@@ -133,29 +100,6 @@ Rgb passed_straight(const LitScene& lit, const Hit& hit, Ray& ray) {
     const float cosine = glm::dot(normal, ray.direction);
     pass_pane(lit.caster, hit, ray);
     return straight_transmittance(bsdf_at(scene, hit.point, hit.front), cosine);
-}
-
-bool reflect_diffusely(const Bounce& here, Path& path, Ray& ray) {
-    const Receiver& receiver = here.surface.receiver;
-    const Rgb reflected = path.throughput * here.surface.base_color;
-    if (!(max_component(reflected) > 0)) return false;
-    if (here.ends_at && (*here.ends_at)(path, here.number, here.hit, receiver, reflected))
-        return false;
-    BounceNumbers numbers(path.key, here.number);
-    draw_light_numbers(here, numbers, path);
-    const Rgb brdf = reflected * (1 / kPi);
-    connect_lights(here.lit, receiver, path, [&](const LightConnection& found) {
-        const float weight = light_weight(found, found.pdf_cosine());
-        here.shadows.add(found, brdf * found.irradiance * weight, path.slot);
-    });
-
-    path.throughput = reflected;
-    if (!survives(numbers.next(), path)) return false;
-    ray = {receiver.origin, sample_receiving_cosine(receiver, numbers.next_pair())};
-    path.pdf = pdf_receiving_cosine(receiver, ray.direction);
-    path.normal = receiver.geometric_normal;
-    path.first = false;
-    return path.pdf > 0;
 }
 
 bool scatter(const Bounce& here, Path& path, Ray& ray) {

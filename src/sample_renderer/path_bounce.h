@@ -1,4 +1,4 @@
-// One bounce of a path: what the surface that it met emits, what that reflects of the lights, and
+// One bounce of a path: what the surface that it met emits, what that scatters of the lights, and
 // where the path goes on.
 #pragma once
 
@@ -39,9 +39,8 @@ struct Bounce {
     ShadowBatch& shadows;   // takes the light that the surface reflects
 };
 
-/// Light from one light of each kind, and the next ray; false if the path ends. For Lambertian
-/// surfaces, and for all others.
-bool reflect_diffusely(const Bounce& here, Path& path, Ray& ray);
+/// Light from one light of each kind, and the next ray; false if the path ends. For any surface;
+/// diffuse_bounce.h has what is quicker on Lambertian ones.
 bool scatter(const Bounce& here, Path& path, Ray& ray);
 
 }  // namespace chiaro

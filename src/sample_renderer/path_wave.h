@@ -12,18 +12,18 @@ namespace chiaro {
 /// One path under way; its ray and hit stand at the same place in the wave's arrays.
 struct Path {
     Rgb throughput = Rgb(1);
-    float pdf = 0;           // of the ray's direction over solid angle, for the weight of emission;
-                             // 0: no light sample finds what it meets
-    std::uint32_t slot = 0;  // which sum it adds to
-    std::uint32_t key = 0;   // names its random numbers after the first hit's
-    Vec2 light_place = {};   // at the first hit: where on a light,
-    float light_choice = 0;  // which of each kind of light,
-    Vec2 sky_place = {};     // and where in the environment;
-    std::optional<Vec2> direction = std::nullopt;  // where it surely goes on, if that is chosen yet
-    Vec3 normal = Vec3(0);     // LitPlace's, where the ray started; after the first hit
+    float pdf = 0;          // of the ray's direction over solid angle, for the weight of emission;
+                            // 0: no light sample finds what it meets
+    Vec3 normal = Vec3(0);  // LitPlace's, where the ray started; after the first hit
+    std::uint32_t first = 1;   // it is still on its first ray, though that may have passed panes
+    std::uint32_t slot = 0;    // which sum it adds to
+    std::uint32_t key = 0;     // names its random numbers after the first hit's
+    Vec2 light_place = {};     // at the first hit: where on a light,
+    float light_choice = 0;    // which of each kind of light,
+    Vec2 sky_place = {};       // and where in the environment;
     float roulette_scale = 1;  // of the throughput, for survival: what is small because radiance in
                                // glass is dense, or because of a weight, is worth following
-    bool first = true;         // it is still on its first ray, though that may have passed panes
+    std::optional<Vec2> direction = std::nullopt;  // where it surely goes on, if that is chosen yet
 };
 
 /// The path of `sample` of the sequence before its first ray.
@@ -46,6 +46,9 @@ struct ShadowBatch {
 
     void clear();
     void add(const LightConnection& connection, Rgb value, std::uint32_t slot);
+    /// Of the lanes that were found; rays start at `origin`.
+    void add(const LightConnections8& connections, const Vec3x8& origin, const Vec3x8& value,
+             std::span<const std::uint32_t, kLanes> lane_slots);
     /// Casts all rays, adds what arrives to sums[slot], and clears.
     void settle(const RayCaster& caster, std::span<Rgb> sums);
 };

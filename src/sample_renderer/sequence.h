@@ -4,6 +4,7 @@
 
 #include "base/halton.h"
 #include "base/random.h"
+#include "base/vec8.h"
 #include "sample_renderer/sample_renderer.h"
 
 #include <array>
@@ -92,7 +93,7 @@ private:
     std::array<std::array<float, kDimensions>, kReplicates> rotations_;
 };
 
-/// The numbers at one bounce of the path that `key` names, in order.
+/// The numbers at one bounce of the path that `key` names, in order; and of eight paths.
 class BounceNumbers {
 public:
     BounceNumbers(std::uint32_t key, std::uint32_t bounce) : state_(hash32(key, bounce)) {}
@@ -104,6 +105,21 @@ public:
 
 private:
     std::uint32_t state_;
+};
+class BounceNumbers8 {
+public:
+    BounceNumbers8(Word8 keys, std::uint32_t bounce) : state_(mixed_bits(keys, Word8(bounce))) {}
+    Float8 next() {
+        state_ = state_ + Word8(0x9e37'79b9U);
+        return to_float(mixed_bits(state_) >> 8) * Float8(0x1p-24f);
+    }
+    Vec2x8 next_pair() {
+        const Float8 first = next();
+        return {first, next()};
+    }
+
+private:
+    Word8 state_;
 };
 
 }  // namespace chiaro

@@ -1,12 +1,14 @@
 // From the unit square to directions; each mapping stands beside its density.
 #pragma once
 
-#include "base/vec.h"
+#include "base/vec8.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
+#include <type_traits>
 
 namespace chiaro {
 
@@ -19,21 +21,28 @@ inline float select(bool first, float a, float b) {
 }
 
 /// The unit disk, evenly, by the concentric map (Shirley and Chiu 1997): what is well spread over
-/// the square stays so.
-inline Vec2 square_to_disk(Vec2 u) {
-    const float x = 2 * u.x - 1;
-    const float y = 2 * u.y - 1;
-    const bool by_x = std::abs(x) > std::abs(y);
-    const float radius = select(by_x, x, y);
-    const float other = select(by_x, y, x);
+/// the square stays so. For Vec2 and Vec2x8.
+template <typename Pair>
+Pair square_to_disk(const Pair& u) {
+    using std::abs, std::copysign;
+    using Number = std::remove_cvref_t<decltype(u.x)>;
+    const Number x = Number(2) * u.x - Number(1);
+    const Number y = Number(2) * u.y - Number(1);
+    const auto by_x = abs(x) > abs(y);
+    const Number radius = select(by_x, x, y);
+    const Number other = select(by_x, y, x);
 
     // Sine and cosine up to pi / 4, where short series are exact to 4e-7. At the centre 0 / 1e-30.
-    const float angle =
-        (kPi / 4) * other / std::copysign(std::max(std::abs(radius), 1e-30f), radius);
-    const float a2 = angle * angle;
-    const float sine = angle * (1 + a2 * (-1 / 6.0f + a2 * (1 / 120.0f - a2 * (1 / 5040.0f))));
-    const float cosine =
-        1 + a2 * (-0.5f + a2 * (1 / 24.0f - a2 * (1 / 720.0f - a2 * (1 / 40320.0f))));
+    const Number angle =
+        Number(kPi / 4) * other / copysign(larger(abs(radius), Number(1e-30f)), radius);
+    const Number a2 = angle * angle;
+    const auto series = [&](float first, auto... others) {
+        Number sum(first);
+        ((sum = sum * a2 + Number(others)), ...);
+        return sum;
+    };
+    const Number sine = angle * series(-1 / 5040.0f, 1 / 120.0f, -1 / 6.0f, 1.0f);
+    const Number cosine = series(1 / 40320.0f, -1 / 720.0f, 1 / 24.0f, -0.5f, 1.0f);
     return {radius * select(by_x, cosine, sine), radius * select(by_x, sine, cosine)};
 }
 
@@ -42,6 +51,11 @@ inline Vec2 square_to_disk(Vec2 u) {
 inline Vec3 square_to_cosine_hemisphere(Vec2 u) {
     const Vec2 d = square_to_disk(u);
     return {d.x, d.y, std::sqrt(std::max(1e-8f, 1 - glm::dot(d, d)))};
+}
+template <std::same_as<Vec2x8> Pair>  // no braces are taken for eight
+Vec3x8 square_to_cosine_hemisphere(const Pair& u) {
+    const Vec2x8 d = square_to_disk(u);
+    return {d.x, d.y, sqrt(larger(Float8(1e-8f), Float8(1) - d.x * d.x - d.y * d.y))};
 }
 /// Density of the above over solid angle, from the direction's cosine [1 / steradian].
 inline float pdf_cosine_hemisphere(float cosine) {

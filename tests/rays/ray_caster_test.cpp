@@ -223,7 +223,7 @@ TEST(RayCaster, FlatPrimitivesHaveOneNormal) {
         m.positions[2].z = raised;
         m.normals = std::move(normals);
         tiny::add_object(one, m);
-        return RayCaster(one, 1).flat({ObjectId(0), 0, 0.5f, 0.5f});
+        return cast(RayCaster(one, 1), {{0.5f, 0.25f, 1}, {0, 0, -1}}).flat;
     };
     const Vec3 up(0, 0, 1);
     EXPECT_TRUE(flat({}));
