@@ -27,7 +27,7 @@ constexpr std::size_t kPointsATurn = 10;
 
 struct Settings {
     std::vector<int> quads = {2000, 50'000, 500'000};
-    std::vector<std::string> renderers = {"path", "caustic", "gather"};
+    std::vector<std::string> renderers = {"path", "caustic", "bidirectional", "gather"};
     int points = 300;
     int repetitions = 11;
 };

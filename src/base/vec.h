@@ -63,9 +63,7 @@ Vector from_frame(const Vector& n, const Vector& v) {
 struct Frame {
     Vec3 s, t, n;
     explicit Frame(Vec3 normal)
-        : s(from_frame(normal, Vec3(1, 0, 0))),
-          t(from_frame(normal, Vec3(0, 1, 0))),
-          n(normal) {}
+        : s(from_frame(normal, Vec3(1, 0, 0))), t(from_frame(normal, Vec3(0, 1, 0))), n(normal) {}
     Vec3 to_world(Vec3 v) const { return v.x * s + v.y * t + v.z * n; }
     Vec3 to_local(Vec3 v) const { return {glm::dot(s, v), glm::dot(t, v), glm::dot(n, v)}; }
 };

@@ -98,8 +98,7 @@ template <typename T>
 void store_words(Float8 (&words)[kLanes], T* structs) {
     transpose(words);
     auto* const base = reinterpret_cast<float*>(structs);
-    for (std::size_t i = 0; i < kLanes; ++i)
-        words[i].store(base + i * (sizeof(T) / sizeof(float)));
+    for (std::size_t i = 0; i < kLanes; ++i) words[i].store(base + i * (sizeof(T) / sizeof(float)));
 }
 
 }  // namespace chiaro

@@ -111,6 +111,7 @@ void EmbreeScene::build(const Scene& scene) {
         if (!shows_something(scene, scene.objects[i])) continue;
         Instance& instance = objects_[i];
         instance.mesh = index_of(scene.objects[i].mesh);
+        instance.primitives = scene.mesh_of(scene.objects[i]).primitives.data();
         instance.quad_count = scene.mesh_of(scene.objects[i]).quad_count;
         const std::vector<bool>& curved = curved_[instance.mesh];
         instance.any_curved = std::find(curved.begin(), curved.end(), true) != curved.end();

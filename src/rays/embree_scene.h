@@ -49,6 +49,7 @@ public:
         RTCGeometry geometry = nullptr;  // null: the object shows nothing
         Mat3 normal_matrix = Mat3(1);
         std::size_t mesh = 0;
+        const Primitive* primitives = nullptr;  // of the mesh
         std::uint32_t quad_count = 0;
         float extent = 0;
         bool any_curved = false;

@@ -84,7 +84,8 @@ Rgb straight_on(const PacketContext& context, const RawHit& hit, const SurfacePo
     if (!may_pass_straight(scene.material(material_of(scene, point)))) return Rgb(0);
     const EmbreeScene& embree = *context.embree_scene;
     Vec3 normal = embree.normal_of(hit);
-    if (!embree.flat(embree.instance(hit.object), point.primitive)) normal = shading_normal(scene, point, normal);
+    if (!embree.flat(embree.instance(hit.object), point.primitive))
+        normal = shading_normal(scene, point, normal);
     const float cosine = glm::dot(normal, direction) / glm::length(direction);
     return straight_transmittance(bsdf_at(scene, point, true), cosine);
 }

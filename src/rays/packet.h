@@ -39,8 +39,9 @@ inline void fill_constant_rows(RTCRay16& packet) {
     }
 }
 
-/// At most 16 rays as Embree wants them: component by component, but for fill_constant_rows(). Lanes without a ray repeat the
-/// first one, since every lane must be finite, and are switched off. Checks: every ray is finite.
+/// At most 16 rays as Embree wants them: component by component, but for fill_constant_rows().
+/// Lanes without a ray repeat the first one, since every lane must be finite, and are switched off.
+/// Checks: every ray is finite.
 void fill_rays(RTCRay16& packet, int* active, std::span<const Ray> rays);
 
 /// What one ray, or the first lanes of a packet that was cast, met.

@@ -130,8 +130,7 @@ std::uint32_t reflect_diffusely(const DiffuseBounce& here, EightPaths& next) {
     add_other_lights(here, receivers, paths, brdf, lanes);
 
     // Russian roulette on what the path has come to carry.
-    const Float8 survival =
-        smaller(kMostSurvival, paths.roulette_scale * max_component(reflected));
+    const Float8 survival = smaller(kMostSurvival, paths.roulette_scale * max_component(reflected));
     lanes &= (numbers.next() < survival).lanes();
     const Vec3x8 direction = sample_receiving_cosine(receivers, numbers.next_pair());
     const Float8 pdf = receiving_cosine(receivers, direction) * Float8(1 / kPi);

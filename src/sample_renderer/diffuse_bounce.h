@@ -11,9 +11,10 @@ struct DiffuseBounce {
     PathWave& wave;  // its hits are of the present rays; its shadows take reflected light
     std::size_t first;
     std::uint32_t number;
-    const EndsAt* ends_at;   // may be null
+    const EndsAt* ends_at;    // may be null
     std::uint32_t lanes = 0;  // a bit for each lane on a Lambertian surface, whose
-    Lanes3 base_color = Lanes3(), shading_normal = Lanes3();  // are set; the normal of the front side
+    Lanes3 base_color = Lanes3(),
+           shading_normal = Lanes3();  // are set; the normal of the front side
 
     int lane_count() const {
         return static_cast<int>(std::min<std::size_t>(kLanes, wave.paths.size() - first));

@@ -1,13 +1,36 @@
 #include "sample_renderer/indirect_light.h"
 
-#include "sample_renderer/warp.h"
+#include <algorithm>
 
 namespace chiaro {
 namespace {
 
-Ray first_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t sample) {
-    return {receiver.origin,
-            sample_receiving_cosine(receiver, sequence.pair(sample, kFirstDirection))};
+// The first rays of samples [first, first + kLanes).
+void first_rays(const Receiver& receiver, const Sequence& sequence, std::uint32_t first,
+                Ray (&rays)[kLanes]) {
+    alignas(32) float x[kLanes], y[kLanes];
+    for (std::uint32_t i = 0; i < kLanes; ++i) {
+        const Vec2 u = sequence.pair(first + i, kFirstDirection);
+        x[i] = u.x;
+        y[i] = u.y;
+    }
+    const Vec3x8 direction = sample_receiving_cosine(everywhere(receiver), {load8(x), load8(y)});
+    const Vec3x8 origin = everywhere(receiver.origin);
+    Float8 words[kLanes] = {origin.x,    origin.y,    origin.z, direction.x,
+                            direction.y, direction.z, 0.0f,     kInfinity};
+    store_words(words, rays);
+}
+
+// Calls each(sample, ray).
+template <typename Each>
+void for_each_first_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t first,
+                        std::uint32_t count, const Each& each) {
+    Ray rays[kLanes];
+    for (std::uint32_t done = 0; done < count; done += kLanes) {
+        first_rays(receiver, sequence, first + done, rays);
+        for (std::uint32_t i = 0; i < std::min<std::uint32_t>(kLanes, count - done); ++i)
+            each(first + done + i, rays[i]);
+    }
 }
 
 // One cosine-distributed ray a sample. Cosine over density is pi, which the throughput leaves out.
@@ -15,8 +38,9 @@ void start_paths(const Receiver& receiver, std::uint32_t seed, std::uint32_t fir
                  std::uint32_t count, PathWave& wave) {
     const Sequence sequence(seed);
     wave.clear();
-    for (std::uint32_t i = first; i < first + count; ++i)
-        wave.add(first_ray(receiver, sequence, i), make_path(sequence, i, i % kReplicates));
+    for_each_first_ray(receiver, sequence, first, count, [&](std::uint32_t i, const Ray& ray) {
+        wave.add(ray, make_path(sequence, i, i % kReplicates));
+    });
 }
 
 }  // namespace
@@ -53,8 +77,8 @@ RayCount probe(const LitScene& lit, const OpenSides& open_sides, const Receiver&
                std::uint32_t seed, std::uint32_t count, PathWave& scratch) {
     const Sequence sequence(seed);
     scratch.clear();
-    for (std::uint32_t i = 0; i < count; ++i)
-        scratch.rays.push_back(first_ray(receiver, sequence, i));
+    for_each_first_ray(receiver, sequence, 0, count,
+                       [&](std::uint32_t, const Ray& ray) { scratch.rays.push_back(ray); });
     scratch.hits.resize(count);
     lit.caster.intersect(scratch.rays, scratch.hits);
     return count_inside(&open_sides, scratch.hits);

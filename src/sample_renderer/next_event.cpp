@@ -102,8 +102,8 @@ std::optional<LightConnection> connect_area_light(const LitScene& lit, const Rec
     return connection;
 }
 
-LightConnections8 connect_area_light(const LitScene& lit, const Receiver8& receivers,
-                                     Float8 choice, const Vec2x8& spot, unsigned lanes) {
+LightConnections8 connect_area_light(const LitScene& lit, const Receiver8& receivers, Float8 choice,
+                                     const Vec2x8& spot, unsigned lanes) {
     const Lanes3 places(receivers.position), origins(receivers.origin),
         normals(receivers.geometric_normal), numbers({choice, spot.x, spot.y});
     Lanes3 positions, light_normals, radiances;

@@ -40,6 +40,10 @@ Receiver make_receiver(const RayCaster& caster, ObjectId object, Vec3 position,
 struct Receiver8 {
     Vec3x8 position, origin, geometric_normal, shading_normal;
 };
+inline Receiver8 everywhere(const Receiver& r) {
+    return {everywhere(r.position), everywhere(r.origin), everywhere(r.geometric_normal),
+            everywhere(r.shading_normal)};
+}
 
 /// The same place, receiving on its other side.
 inline Receiver other_side(const Receiver& r) {
@@ -124,8 +128,8 @@ struct LightConnections8 {
 
     Float8 pdf_cosine() const { return cosine * Float8(1 / kPi); }
 };
-LightConnections8 connect_area_light(const LitScene& lit, const Receiver8& receivers,
-                                     Float8 choice, const Vec2x8& spot, unsigned lanes);
+LightConnections8 connect_area_light(const LitScene& lit, const Receiver8& receivers, Float8 choice,
+                                     const Vec2x8& spot, unsigned lanes);
 
 /// Punctual light `index`; nothing if it cannot shine on the receiver.
 std::optional<LightConnection> connect_punctual(const LitScene& lit, const Receiver& receiver,

@@ -68,8 +68,7 @@ MetSurface describe(const LitScene& lit, const Hit& hit) {
     const Scene& scene = lit.scene;
     const Mesh& mesh = scene.mesh_of(scene.objects[index_of(hit.point.object)]);
     const Material& material = scene.material(mesh.primitives[hit.point.primitive].material);
-    const Vec3 shading =
-        hit.flat ? hit.normal : shading_normal(scene, hit.point, hit.normal);
+    const Vec3 shading = hit.flat ? hit.normal : shading_normal(scene, hit.point, hit.normal);
     const bool plain = !material.base_color_texture.used() && mesh.colors.empty();
 
     const float side = hit.front ? 1.0f : -1.0f;

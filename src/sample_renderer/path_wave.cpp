@@ -109,8 +109,7 @@ std::uint32_t advance(const Step& step, std::size_t first, EightPaths& next) {
         }
         const Mesh& mesh = scene.mesh_of(scene.objects[index_of(hit.point.object)]);
         const Material& material = scene.material(mesh.primitives[hit.point.primitive].material);
-        if (material.emissive())
-            add_emission(step, step.wave.paths[at], step.wave.rays[at], hit);
+        if (material.emissive()) add_emission(step, step.wave.paths[at], step.wave.rays[at], hit);
         if (step.lit.dark()) continue;
         if (material.gloss.model != GlossModel::none) {
             others |= 1U << lane;
@@ -118,8 +117,8 @@ std::uint32_t advance(const Step& step, std::size_t first, EightPaths& next) {
         }
         const bool plain = !material.base_color_texture.used() && mesh.colors.empty();
         diffuse.lanes |= 1U << lane;
-        diffuse.base_color.set(
-            lane, plain ? material.base_color : Rgb(base_color(scene, hit.point)));
+        diffuse.base_color.set(lane,
+                               plain ? material.base_color : Rgb(base_color(scene, hit.point)));
         diffuse.shading_normal.set(
             lane, hit.flat ? hit.normal : shading_normal(scene, hit.point, hit.normal));
     }

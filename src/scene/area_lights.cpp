@@ -27,10 +27,7 @@ AreaLights::AreaLights(const Scene& scene) : scene_(&scene), surfaces_(scene, lu
     }
 }
 
-Rgb AreaLights::eval(const AreaLightSample& sample, Vec3 direction) const {
-    const bool front = glm::dot(sample.normal, direction) > 0;
-    const PlainRadiance& light = plain_[sample.surface];
-    if (light.plain) return light.radiance[front];
+Rgb AreaLights::varied_radiance(const AreaLightSample& sample, bool front) const {
     const Rgb radiance = emission(*scene_, sample.point, front);
     if (radiance == Rgb(0)) return radiance;
     return opacity(*scene_, sample.point) * radiance;

@@ -25,7 +25,11 @@ public:
     /// Radiance that leaves `sample` along the unit vector `direction` [cd/m2 a channel], times the
     /// part of it that a transport ray would not pass through (alpha of a masked or blended
     /// emitter).
-    Rgb eval(const AreaLightSample& sample, Vec3 direction) const;
+    Rgb eval(const AreaLightSample& sample, Vec3 direction) const {
+        const bool front = glm::dot(sample.normal, direction) > 0;
+        const PlainRadiance& light = plain_[sample.surface];
+        return light.plain ? light.radiance[front] : varied_radiance(sample, front);
+    }
 
     /// As SampledSurfaces has them.
     std::optional<AreaLightSample> sample(const LitPlace& place, float choice, Vec2 spot) const {
@@ -49,6 +53,8 @@ private:
         bool plain = false;
         Rgb radiance[2] = {};  // of the back, of the front
     };
+
+    Rgb varied_radiance(const AreaLightSample& sample, bool front) const;
 
     const Scene* scene_;
     SampledSurfaces surfaces_;

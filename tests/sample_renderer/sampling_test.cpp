@@ -125,5 +125,51 @@ TEST(Sampling, BothTechniquesStateTheSameDensity) {
     EXPECT_GT(compared, 100);
 }
 
+// What paths do eight at a time is what they do one by one: the same light samples from the same
+// numbers, and the same next directions.
+TEST(Sampling, EightLightSamplesAreEightTimesOne) {
+    Scene scene;
+    const MaterialId white = tiny::add_material(scene, Rgb(0.5f));
+    const MaterialId lamp = tiny::add_material(scene, Rgb(0), Rgb(3, 2, 1));
+    tiny::add_quad(scene, {-5, 0, -5}, {0, 0, 10}, {10, 0, 0}, white);
+    for (int i = 0; i < 20; ++i)
+        tiny::add_quad(scene, {0.4f * float(i) - 4, 3, -1}, {0.3f, 0, 0}, {0, 0.1f, 0.3f}, lamp);
+    const RayCaster caster(scene, 1);
+    const AreaLights area_lights(scene);
+    const LitScene lit = make_lit_scene(scene, caster, area_lights);
+
+    Rng rng(5);
+    int found = 0;
+    for (int trial = 0; trial < 100; ++trial) {
+        const Vec3 position(4 * rng.uniform() - 2, 2 * rng.uniform(), 4 * rng.uniform() - 2);
+        const Vec3 up = glm::normalize(Vec3(rng.uniform(), 1, rng.uniform()) - 0.5f);
+        const Vec3 leaning = glm::normalize(up + Vec3(0.3f * rng.uniform(), 0, 0));
+        const Receiver receiver = make_receiver(caster, ObjectId{0}, position, up, leaning);
+        Lanes3 numbers;
+        for (int i = 0; i < kLanes; ++i)
+            numbers.set(i, {rng.uniform(), rng.uniform(), rng.uniform()});
+        const Vec3x8 u = numbers.all();
+        const LightConnections8 eight =
+            connect_area_light(lit, everywhere(receiver), u.x, {u.y, u.z}, 0x7f);
+        const Lanes3 to_light(eight.shadow_direction), irradiance(eight.irradiance);
+        const Lanes3 directions(sample_receiving_cosine(everywhere(receiver), Vec2x8{u.y, u.z}));
+        EXPECT_EQ(eight.found & 0x80, 0u);  // was not asked for
+        for (int i = 0; i < kLanes; ++i) {
+            const Vec3 n = numbers.lane(i);
+            const Vec3 direction = sample_receiving_cosine(receiver, Vec2(n.y, n.z));
+            EXPECT_LT(glm::distance(directions.lane(i), direction), 1e-5f);
+            const auto one = connect_area_light(lit, receiver, n.x, {n.y, n.z});
+            if (i == 7) continue;
+            ASSERT_EQ((eight.found >> i & 1) != 0, one.has_value());
+            if (!one) continue;
+            ++found;
+            EXPECT_LT(glm::distance(to_light.lane(i), one->shadow_ray.direction), 1e-5f);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(irradiance.lane(i)[c], one->irradiance[c], 1e-4f * one->irradiance[c]);
+        }
+    }
+    EXPECT_GT(found, 100);
+}
+
 }  // namespace
 }  // namespace chiaro
