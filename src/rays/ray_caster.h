@@ -18,7 +18,7 @@ struct Hit {
     float offset = 0;     // how far to start a ray from here so that it does not meet this again
     Vec3 normal = Vec3(0, 0, 1);  // unit geometric normal of the front face, world space
     bool front = true;  // met the front face (counter-clockwise winding toward the origin)
-    bool flat = true;   // the shading normal is the geometric one everywhere on the primitive
+    bool flat = false;  // known: the shading normal is the geometric one on all of the primitive
 
     explicit operator bool() const { return point.object != ObjectId::none; }
 };

@@ -24,6 +24,7 @@ void start_at_surface(const LitScene& lit, const ShadeRequest& request, std::uin
     hit.t = glm::distance(request.eye, g.position);
     hit.front = request.front;
     hit.normal = g.geometric_normal;
+    hit.offset = lit.caster.offset(g.position, request.where.object);
     const Ray ray = {g.position + hit.t * to_eye, -to_eye};
 
     // Little as it may reflect, that is what was asked for: paths are not to end for it.
