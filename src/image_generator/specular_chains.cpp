@@ -95,9 +95,8 @@ void Chains::go_on(RayKind kind, Sighting& at, Vec3 direction, bool last) {
     at.diffuse = bsdf.diffuse;
     if (is_lambertian(bsdf)) return;
     const float side = at.hit.front ? 1.0f : -1.0f;
-    const Vec3 shading = rays.flat(at.hit.point)
-                             ? at.hit.normal
-                             : shading_normal(rays.scene(), at.hit.point, at.hit.normal);
+    const Vec3 shading =
+        at.hit.flat ? at.hit.normal : shading_normal(rays.scene(), at.hit.point, at.hit.normal);
     Scattering s = make_scattering(bsdf, side * at.hit.normal, side * shading, -direction);
     at.cosine = s.from.z;
     at.diffuse = diffuse_albedo(bsdf, at.cosine);
