@@ -131,7 +131,9 @@ TEST(Bidirectional, AgreesWithPathAboutLampsAndSuns) {
             Scene suns = room(kGrey, surface, thing);
             open_ceiling(suns);
             suns.lights = {sun({0.3f, 0.2f, -1}, Rgb(5)), sun({-0.3f, 0.4f, -1}, Rgb(2))};
-            EXPECT_LT(std::abs(distance(std::move(suns), surface.name)), 6) << surface.name;
+            // Ground glass gathers a sun in few directions, which takes more paths to find.
+            EXPECT_LT(std::abs(distance(std::move(suns), surface.name, 1 << 16)), 6)
+                << surface.name;
         }
 }
 
