@@ -6,7 +6,8 @@
 // Places are what rays through a grid of the picture's pixels meet. Errors are relative to the
 // truth there, two halves of many traced paths (or of --truth, a renderer's name) whose own noise
 // cancels in the product. Time is the processor's, of all threads, and with `gather` holds the
-// filling of its cells: each run starts without any.
+// filling of its cells: each run starts without any, or with those that --before N samples a place
+// leave. --truth-file F keeps the truth for other runs of the same view.
 
 #include "apps/make_renderer.h"
 #include "apps/open_scene.h"
@@ -16,8 +17,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdio>
 #include <ctime>
+#include <fstream>
 
 namespace chiaro {
 namespace {
@@ -28,7 +31,9 @@ struct Settings {
     std::vector<std::string> renderers;
     std::string truth = "path";
     std::string light = "indirect";
+    std::string truth_file;
     std::uint32_t samples = 256;
+    std::uint32_t before = 0;  // samples a place that are taken first and not counted
     std::uint32_t truth_samples = 1 << 13;
     int across = 24;
     int runs = 4;
@@ -97,6 +102,27 @@ std::vector<double> shade(SampleRenderer& renderer, std::vector<ShadeRequest> re
     return lux;
 }
 
+// Two halves of the truth, from the file if it holds them; else made, and left there if it is
+// named.
+std::array<std::vector<double>, 2> truth_of(SampleRenderer& renderer,
+                                            const std::vector<ShadeRequest>& requests,
+                                            const Settings& settings) {
+    std::array<std::vector<double>, 2> halves;
+    if (std::ifstream file(settings.truth_file); file) {
+        for (std::vector<double>& half : halves) half.resize(requests.size());
+        for (std::size_t i = 0; i < requests.size(); ++i) file >> halves[0][i] >> halves[1][i];
+        if (!file) throw Error(settings.truth_file, "is not the truth of this view");
+        return halves;
+    }
+    for (std::uint32_t i = 0; i < 2; ++i)
+        halves[i] = shade(renderer, requests, settings.truth_samples, 1 + i);
+    if (settings.truth_file.empty()) return halves;
+    std::ofstream file(settings.truth_file);
+    for (std::size_t i = 0; i < requests.size(); ++i)
+        file << fmt::format("{:.9g} {:.9g}\n", halves[0][i], halves[1][i]);
+    return halves;
+}
+
 struct Figures {
     double error = 0;  // mean over places of the squared error over the truth's square
     double bias = 0;   // mean error over mean truth
@@ -110,8 +136,8 @@ Figures measure(const Stage& stage, const std::string& name,
     double sum = 0, truth = 0;
     for (int run = 0; run < settings.runs; ++run) {
         const auto renderer = stage.renderer(name);
-        for (int w = 0; w < (getenv("WARM") ? atoi(getenv("WARM")) : 0); ++w)
-            shade(*renderer, requests, 1024, 77 + w);
+        if (settings.before > 0)
+            shade(*renderer, requests, settings.before, 77 + static_cast<std::uint32_t>(run));
         const double start = processor_seconds();
         const std::vector<double> lux =
             shade(*renderer, requests, settings.samples, 1000 + static_cast<std::uint32_t>(run));
@@ -154,6 +180,8 @@ int run_efficiency(int argc, char** argv) {
     app.add_option("--light", settings.light);
     app.add_option("--samples", settings.samples);
     app.add_option("--truth-samples", settings.truth_samples);
+    app.add_option("--truth-file", settings.truth_file);
+    app.add_option("--before", settings.before);
     app.add_option("--across", settings.across);
     app.add_option("--runs", settings.runs);
     app.add_option("--threads", options.threads);
@@ -164,8 +192,7 @@ int run_efficiency(int argc, char** argv) {
     const View view(choose_camera(stage.scene, options), size.width, size.height);
     const auto requests = places(stage, view, settings);
     const auto truth = stage.renderer(settings.truth);
-    const auto half_1 = shade(*truth, requests, settings.truth_samples, 1);
-    const auto half_2 = shade(*truth, requests, settings.truth_samples, 2);
+    const auto [half_1, half_2] = truth_of(*truth, requests, settings);
 
     fmt::print("{{\"scene\": \"{}\", \"places\": {}, \"samples\": {}, \"renderers\": {{",
                options.scene, requests.size(), settings.samples);

@@ -43,19 +43,20 @@ CellGrid make_cell_grid(const Box& scene) {
     return {scene.low - kMargin * size, size};
 }
 
-std::optional<CellKey> cell_at(const CellGrid& grid, ObjectId object, Vec3 position, Vec3 normal,
-                               float distance, Vec3 jitter) {
+std::optional<int> level_of(const CellGrid& grid, float distance) {
     if (!(distance >= grid.shortest())) return std::nullopt;
     const int halvings = std::ilogb(kLengthOverSize * grid.size / distance) + 1;
-    const int level = std::clamp(halvings, 0, CellGrid::kLevels - 1);
-    const float size = std::ldexp(grid.size, -level);
+    return std::clamp(halvings, 0, CellGrid::kLevels - 1);
+}
 
-    const Vec3 shift = jitter - 0.5f;
-    const Vec3 along = shift - glm::dot(shift, normal) * normal;
-    const Vec3 place = (position - grid.origin) / size + along;
+CellKey cell_at(const CellGrid& grid, const CellVisit& visit, int level) {
+    const float size = std::ldexp(grid.size, -level);
+    const Vec3 shift = visit.jitter - 0.5f;
+    const Vec3 along = shift - glm::dot(shift, visit.normal) * visit.normal;
+    const Vec3 place = (visit.position - grid.origin) / size + along;
     constexpr float kLast = (1 << kBitsAnAxis) - 1;
-    std::uint64_t key = index_of(object) & ((1 << kObjectBits) - 1);
-    key = key << 3 | facing(normal + kTilt * Vec3(shift.y, shift.z, shift.x));
+    std::uint64_t key = index_of(visit.object) & ((1 << kObjectBits) - 1);
+    key = key << 3 | facing(visit.normal + kTilt * Vec3(shift.y, shift.z, shift.x));
     key = key << 3 | static_cast<std::uint64_t>(level);
     for (int axis = 0; axis < 3; ++axis)
         key = key << kBitsAnAxis |
@@ -71,14 +72,12 @@ void CellSamples::add(Rgb irradiance) {
 }
 
 std::size_t IrradianceCells::slot_of(CellKey key) const {
-    for (std::size_t i = hash64(static_cast<std::uint64_t>(key));; ++i) {
-        i &= slots_.size() - 1;
+    for (std::size_t i = first_slot(key);; i = (i + 1) & (slots_.size() - 1))
         if (slots_[i].id == CellId::none || slots_[i].key == key) return i;
-    }
 }
 
 CellId IrradianceCells::find(CellKey key) const {
-    return slots_.empty() ? CellId::none : slots_[slot_of(key)].id;
+    return slots_[slot_of(key)].id;
 }
 
 CellId IrradianceCells::find_or_add(CellKey key) {
@@ -92,20 +91,20 @@ CellId IrradianceCells::find_or_add(CellKey key) {
 }
 
 void IrradianceCells::grow() {
-    slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), Slot{});
+    slots_.assign(2 * slots_.size(), Slot{});
     for (std::size_t i = 0; i < cells_.size(); ++i)
         slots_[slot_of(cells_[i].key)] = {cells_[i].key, static_cast<CellId>(i)};
 }
 
-void IrradianceCells::store(CellId id, const CellSamples& added, std::uint32_t version) {
+void IrradianceCells::store(CellId id, const CellSamples& added) {
     check(added.samples > 0 && is_finite(added.mean) && std::isfinite(added.deviations),
           "IrradianceCells: samples are not usable");
     IrradianceCell& c = cells_[index_of(id)];
-    if (version > c.version) c.samples = 0;
-    if (c.samples == 0) {
+    if (!known(id)) {
+        c.samples = 0;
         c.mean = Rgb(0);
         c.deviations = 0;
-        c.version = version;
+        c.version = version_;
     }
     // Two sets' deviations add, with those between their means (Chan et al. 1979).
     const auto before = static_cast<float>(c.samples), more = static_cast<float>(added.samples);

@@ -5,6 +5,7 @@
 
 #include "base/color.h"
 #include "base/ids.h"
+#include "base/random.h"
 
 #include <cstdint>
 #include <optional>
@@ -33,13 +34,21 @@ struct CellGrid {
 /// A grid of cells of 1/60 of the diagonal of a scene's bounds (world space).
 CellGrid make_cell_grid(const Box& scene);
 
-/// The cell in which a ray of length `distance` ends that meets `object` at `position`, whose
-/// `normal` (unit, world) is on the side that the ray came from; nothing if the ray is too short.
-/// `jitter`, in [0, 1)^3, moves the look-up by up to half a cell along the surface and tilts the
-/// normal a little, so that the mean of many look-ups interpolates between cells.
-/// Objects have cells of their own: a curtain's light is not that of the wall behind it.
-std::optional<CellKey> cell_at(const CellGrid& grid, ObjectId object, Vec3 position, Vec3 normal,
-                               float distance, Vec3 jitter);
+/// The level of the cells in which rays of length `distance` should end: not longer than a quarter
+/// of the ray, where there are such. Nothing if the ray is too short.
+std::optional<int> level_of(const CellGrid& grid, float distance);
+
+/// Where a ray met a surface, and numbers of its own.
+struct CellVisit {
+    ObjectId object;
+    Vec3 position;
+    Vec3 normal;  // unit, world, on the side that the ray came from
+    Vec3 jitter;  // in [0, 1)^3: moves look-ups by up to half a cell along the surface and tilts
+                  // the normal a little, so that the mean of many interpolates between cells
+};
+/// The cell of a level there. Objects have cells of their own: a curtain's light is not that of the
+/// wall behind it.
+CellKey cell_at(const CellGrid& grid, const CellVisit& visit, int level);
 
 /// What is known of a cell.
 struct IrradianceCell {
@@ -48,7 +57,7 @@ struct IrradianceCell {
     float deviations = 0;  // sum of squared deviations of samples' luminance [lux^2]
     std::uint32_t samples = 0;
     float hits = 0;             // rays that ended here
-    std::uint32_t version = 0;  // of the scene at its oldest sample
+    std::uint32_t version = 0;  // of the scene that was sampled
 
     /// Of the mean's luminance [lux^2]. Needs two samples.
     float variance() const {
@@ -71,19 +80,29 @@ struct CellSamples {
 /// Thread: find() and cell() from any number at once, while nobody calls the others.
 class IrradianceCells {
 public:
-    explicit IrradianceCells(const CellGrid& grid) : grid_(grid) {}
+    explicit IrradianceCells(const CellGrid& grid) : grid_(grid), slots_(1024) {}
 
     const CellGrid& grid() const { return grid_; }
     std::span<const IrradianceCell> cells() const { return cells_; }
     const IrradianceCell& cell(CellId id) const { return cells_[index_of(id)]; }
 
     CellId find(CellKey key) const;
+    /// Bring what find() or cell() will read nearer; they are far away in large tables.
+    void prefetch(CellKey key) const { __builtin_prefetch(&slots_[first_slot(key)]); }
+    void prefetch(CellId id) const { __builtin_prefetch(&cells_[index_of(id)]); }
     /// The cell of a key, made empty if there is none.
     CellId find_or_add(CellKey key);
     void count_hits(CellId id, float hits) { cells_[index_of(id)].hits += hits; }
-    /// Merges samples taken under `version` of the scene; older ones make way (design, section 5).
-    /// Checks: samples > 0, finite.
-    void store(CellId id, const CellSamples& samples, std::uint32_t version);
+    /// Merges samples of the scene as it is; older ones make way (design, section 5). Checks:
+    /// samples > 0, finite.
+    void store(CellId id, const CellSamples& samples);
+
+    /// True if a cell has samples of the scene as it is.
+    bool known(CellId id) const {
+        return id != CellId::none && cell(id).samples > 0 && cell(id).version == version_;
+    }
+    /// Samples until now were of a scene that has changed since.
+    void outdate() { ++version_; }
 
 private:
     // The key once more, so that a look-up reads no cell but its own.
@@ -91,10 +110,14 @@ private:
         CellKey key{};
         CellId id = CellId::none;
     };
+    std::size_t first_slot(CellKey key) const {
+        return hash64(static_cast<std::uint64_t>(key)) & (slots_.size() - 1);
+    }
     std::size_t slot_of(CellKey key) const;
     void grow();
 
     CellGrid grid_;
+    std::uint32_t version_ = 1;  // of the scene
     std::vector<IrradianceCell> cells_;
     std::vector<Slot> slots_;  // open addressing, a power of two, at most half full
 };

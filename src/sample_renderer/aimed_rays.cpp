@@ -14,7 +14,8 @@ float pdf_aimed(const SampledSurfaces& surfaces, const LitPlace& place, Vec3 dir
 }
 
 void add_aimed_ray(const Aims& aims, const Receiver& receiver, const Sequence& sequence,
-                   std::uint32_t sample, PathWave& wave, std::vector<SurfacePoint>& targets) {
+                   std::uint32_t sample, std::uint32_t slot, PathWave& wave,
+                   std::vector<SurfacePoint>& targets) {
     const std::uint32_t replicate = sample % kReplicates, index = sample / kReplicates;
     const auto found =
         aims.surfaces.sample(lit_place(receiver), sequence.number(sample, kFirstLightChoice),
@@ -25,36 +26,39 @@ void add_aimed_ray(const Aims& aims, const Receiver& receiver, const Sequence& s
     if (!(squared > 0)) return;
     const Vec3 direction = between / std::sqrt(squared);
     if (!(receiving_cosine(receiver, direction) > 0)) return;
-    Path path = make_path(sequence, sample, replicate);
+    Path path = make_path(sequence, sample, slot);
     path.key = hash32(path.key, kAimedSalt);
     wave.add({receiver.origin, direction}, path);
     targets.push_back(found->point);
 }
 
-}  // namespace
-
-void add_aimed_rays(const Aims& aims, const Receiver& receiver, std::uint32_t seed,
-                    std::uint32_t first, std::uint32_t count, PathWave& wave,
-                    std::vector<SurfacePoint>& targets) {
-    targets.clear();
-    const Sequence sequence(seed);
-    for (std::uint32_t i = first; i < first + count; ++i)
-        if (takes_turn(seed, i % kReplicates, i / kReplicates, aims.every))
-            add_aimed_ray(aims, receiver, sequence, i, wave, targets);
+bool is_on(const Hit& hit, const SurfacePoint& surface) {
+    return hit && hit.point.object == surface.object && hit.point.primitive == surface.primitive;
 }
 
-void weigh_aimed_rays(const Aims& aims, const Receiver& receiver,
+}  // namespace
+
+void add_aimed_rays(const Aims& aims, std::span<const SampleRun> runs, PathWave& wave,
+                    std::vector<SurfacePoint>& targets) {
+    targets.clear();
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        const auto& [receiver, seed, first, count] = runs[r];
+        const Sequence sequence(seed);
+        for (std::uint32_t i = first; i < first + count; ++i)
+            if (takes_turn(seed, i % kReplicates, i / kReplicates, aims.every))
+                add_aimed_ray(aims, receiver, sequence, i, slot_of(r, i), wave, targets);
+    }
+}
+
+void weigh_aimed_rays(const Aims& aims, std::span<const SampleRun> runs,
                       std::span<const SurfacePoint> targets, PathWave& wave) {
     const std::size_t by_cosine = wave.paths.size() - targets.size();
     std::size_t left = 0;
     for (std::size_t i = 0; i < wave.paths.size(); ++i) {
         const Hit& hit = wave.hits[i];
         if (!hit) continue;
-        if (i >= by_cosine) {
-            const SurfacePoint& target = targets[i - by_cosine];
-            if (hit.point.object != target.object || hit.point.primitive != target.primitive)
-                continue;
-        }
+        if (i >= by_cosine && !is_on(hit, targets[i - by_cosine])) continue;
+        const Receiver& receiver = run_of(runs, wave.paths[i].slot).receiver;
         // The throughput of either kind is the cosine / pi over the sum of the densities.
         const Vec3 direction = wave.rays[i].direction;
         const float pdf = pdf_receiving_cosine(receiver, direction);

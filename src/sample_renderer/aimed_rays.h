@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sample_renderer/path_wave.h"
+#include "sample_renderer/sample_run.h"
 #include "sample_renderer/sequence.h"
 #include "scene/sampled_surfaces.h"
 
@@ -14,16 +15,15 @@ struct Aims {
     std::uint32_t every = 1;
 };
 
-/// Adds the aimed rays of samples [first, first + count) to a wave that holds these samples' rays
-/// of the cosine distribution. `targets` gets the point that each is aimed at.
-void add_aimed_rays(const Aims& aims, const Receiver& receiver, std::uint32_t seed,
-                    std::uint32_t first, std::uint32_t count, PathWave& wave,
+/// Adds the aimed rays of all runs to a wave that holds their rays of the cosine distribution.
+/// `targets` gets the point that each is aimed at.
+void add_aimed_rays(const Aims& aims, std::span<const SampleRun> runs, PathWave& wave,
                     std::vector<SurfacePoint>& targets);
 
 /// To be called when all first rays are cast. Leaves out what met nothing, and the aimed rays (the
 /// last of the wave) that something else stopped before their target; weights all the rest by the
 /// balance heuristic.
-void weigh_aimed_rays(const Aims& aims, const Receiver& receiver,
+void weigh_aimed_rays(const Aims& aims, std::span<const SampleRun> runs,
                       std::span<const SurfacePoint> targets, PathWave& wave);
 
 }  // namespace chiaro

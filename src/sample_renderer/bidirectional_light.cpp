@@ -145,21 +145,21 @@ RayCount walk_from_point(const Wave& w, const OpenSides* open_sides, const Recei
 
 }  // namespace
 
-RayCount add_bidirectional_samples(const BidirectionalScene& scene, const Receiver& receiver,
-                                   const SampleRange& samples, BidirectionalScratch& scratch,
+RayCount add_bidirectional_samples(const BidirectionalScene& scene, const SampleRun& run,
+                                   BidirectionalScratch& scratch,
                                    std::span<Rgb, kReplicates> sums) {
-    const Sequence sequence(samples.seed);
+    const Sequence sequence(run.seed);
     RayCount rays;
-    for (std::uint32_t done = 0; done < samples.count; done += kWave) {
+    for (std::uint32_t done = 0; done < run.count; done += kWave) {
         const Wave w = {scene.lit,
                         scene.emitters,
                         sequence,
-                        samples.first + done,
-                        std::min(kWave, samples.count - done),
+                        run.first + done,
+                        std::min(kWave, run.count - done),
                         scratch,
                         sums};
         walk_from_lights(w);
-        const RayCount some = walk_from_point(w, scene.open_sides, receiver);
+        const RayCount some = walk_from_point(w, scene.open_sides, run.receiver);
         rays.shot += some.shot;
         rays.inside += some.inside;
     }

@@ -31,16 +31,10 @@ struct BidirectionalScene {
     const OpenSides* open_sides;
 };
 
-/// Samples [first, first + count) of the sequence that `seed` names.
-struct SampleRange {
-    std::uint32_t seed, first, count;
-};
-
 /// As add_indirect_samples(). A sample is a walk from the point and one from a light, by power:
 /// every path is found by chance at the light, by light samples, and by joining the walks, the
 /// point itself included; what it cannot use are walks from lights that meet the point by chance.
-RayCount add_bidirectional_samples(const BidirectionalScene& scene, const Receiver& receiver,
-                                   const SampleRange& samples, BidirectionalScratch& scratch,
-                                   std::span<Rgb, kReplicates> sums);
+RayCount add_bidirectional_samples(const BidirectionalScene& scene, const SampleRun& run,
+                                   BidirectionalScratch& scratch, std::span<Rgb, kReplicates> sums);
 
 }  // namespace chiaro

@@ -20,12 +20,11 @@ SampleCosts BidirectionalRenderer::typical_costs() const {
 void BidirectionalRenderer::shade(std::span<const ShadeRequest> requests,
                                   std::span<ShadeResult> results) {
     shade_requests(lit_, open_sides_, threads_, requests, results,
-                   [&](const Receiver& receiver, const Task& task, std::uint32_t seed, PathWave&) {
+                   [&](const SampleRun& run, const Task&, PathWave&) {
                        thread_local BidirectionalScratch scratch;
                        TaskResult result;
-                       result.rays = add_bidirectional_samples(
-                           {lit_, emitters_, open_sides_}, receiver, {seed, task.first, task.count},
-                           scratch, result.sums);
+                       result.rays = add_bidirectional_samples({lit_, emitters_, open_sides_}, run,
+                                                               scratch, result.sums);
                        return result;
                    });
 }

@@ -27,12 +27,12 @@ Rgb exact_image_light(const LitScene& lit, const Receiver& receiver, PathWave& s
     return sum;
 }
 
-void add_image_samples(const LitScene& lit, const Receiver& receiver, std::uint32_t seed,
-                       const Task& task, PathWave& scratch, std::span<Rgb, kReplicates> sums) {
-    const Sequence sequence(seed);
+void add_image_samples(const LitScene& lit, const SampleRun& run, PathWave& scratch,
+                       std::span<Rgb, kReplicates> sums) {
+    const Sequence sequence(run.seed);
     scratch.shadows.clear();
-    for (std::uint32_t i = task.first; i < task.first + task.count; ++i)
-        for_each_image(lit, receiver, sequence.number(i, kFirstLightChoice), kImagesASample,
+    for (std::uint32_t i = run.first; i < run.first + run.count; ++i)
+        for_each_image(lit, run.receiver, sequence.number(i, kFirstLightChoice), kImagesASample,
                        [&](const LightConnection& found) {
                            scratch.shadows.add(found, found.irradiance, i % kReplicates);
                        });
@@ -89,17 +89,17 @@ void CausticRenderer::shade(std::span<const ShadeRequest> requests,
     const bool exact = image_count(lit_) <= kMostExactImages;
     const Aims all = {focusing_};
     const Aims* aims = focusing_.empty() ? nullptr : &all;
-    shade_requests(
-        lit_, open_sides_, threads_, requests, results,
-        [&](const Receiver& receiver, const Task& task, std::uint32_t seed, PathWave& scratch) {
-            TaskResult result;
-            if (exact && task.starts) result.exact = exact_image_light(lit_, receiver, scratch);
-            if (!exact) add_image_samples(lit_, receiver, seed, task, scratch, result.sums);
-            result.rays =
-                add_indirect_samples(lit_, receiver, seed, task.first, task.count, scratch,
-                                     result.sums, {.open_sides = open_sides_, .aims = aims});
-            return result;
-        });
+    shade_requests(lit_, open_sides_, threads_, requests, results,
+                   [&](const SampleRun& run, const Task& task, PathWave& scratch) {
+                       TaskResult result;
+                       if (exact && task.starts)
+                           result.exact = exact_image_light(lit_, run.receiver, scratch);
+                       if (!exact) add_image_samples(lit_, run, scratch, result.sums);
+                       result.rays =
+                           add_indirect_samples(lit_, {&run, 1}, scratch, result.sums,
+                                                {.open_sides = open_sides_, .aims = aims});
+                       return result;
+                   });
 }
 
 }  // namespace chiaro

@@ -41,23 +41,14 @@ Receiver8 load_receivers(const DiffuseBounce& here) {
     return {position, position + offset * normal, normal, side * here.shading_normal.all()};
 }
 
-Receiver lane(const Receiver8& receivers, int i) {
-    return {Lanes3(receivers.position).lane(i), Lanes3(receivers.origin).lane(i),
-            Lanes3(receivers.geometric_normal).lane(i), Lanes3(receivers.shading_normal).lane(i)};
-}
-
 // The lanes that do not end here for whoever is asked.
 std::uint32_t ask_ends(const DiffuseBounce& here, const Receiver8& receivers,
                        const Vec3x8& reflected, std::uint32_t lanes) {
-    const Lanes3 colors(reflected);
-    std::uint32_t left = lanes;
-    for_each_lane(lanes, [&](int i) {
-        const std::size_t at = here.first + i;
-        if ((*here.ends_at)(here.wave.paths[at], here.number, here.wave.hits[at],
-                            lane(receivers, i), colors.lane(i)))
-            left &= ~(1U << i);
-    });
-    return left;
+    const std::span<const Path> paths = here.wave.paths;
+    const std::span<const Hit> hits = here.wave.hits;
+    return lanes & ~(*here.ends_at)({paths.subspan(here.first, here.lane_count()),
+                                     hits.subspan(here.first, here.lane_count()), receivers,
+                                     reflected, here.number, lanes});
 }
 
 void add_area_light(const DiffuseBounce& here, const Receiver8& receivers, const Paths8& paths,

@@ -12,33 +12,50 @@ bool few(std::span<const std::uint32_t> lights) {
 }
 
 // A light sample that a ray may find too.
-void add_light_sample(const std::optional<LightConnection>& connection, std::uint32_t sample,
+void add_light_sample(const std::optional<LightConnection>& connection, std::uint32_t slot,
                       ShadowBatch& shadows) {
     if (!connection) return;
     const float of_light = kLightSamplesPerRay * connection->pdf_solid_angle;
     const float weight = of_light / (of_light + connection->pdf_cosine());
-    shadows.add(*connection, connection->irradiance * weight, sample % kReplicates);
+    shadows.add(*connection, connection->irradiance * weight, slot);
 }
 
 void add_light_samples(const LitScene& lit, const Receiver& receiver, const Sequence& sequence,
-                       std::uint32_t sample, ShadowBatch& shadows) {
+                       std::uint32_t sample, std::uint32_t slot, ShadowBatch& shadows) {
     if (!lit.area_lights.empty())
         add_light_sample(connect_area_light(lit, receiver, sequence.number(sample, kLightChoice),
                                             sequence.pair(sample, kLightPlace)),
-                         sample, shadows);
+                         slot, shadows);
     if (!lit.environment.empty())
         add_light_sample(
             connect_environment(lit, receiver,
                                 sequence.rotated_pair(sample, kLightPlace, kSkyRotation)),
-            sample, shadows);
+            slot, shadows);
 }
 
-void add_ray(const Receiver& receiver, const Sequence& sequence, std::uint32_t replicate,
-             std::uint32_t block, PathWave& wave) {
-    const Vec3 direction =
-        sample_receiving_cosine(receiver, sequence.sparse_pair(replicate, block, kLightDirection));
+void add_ray(const Receiver& receiver, Vec2 u, std::uint32_t slot, PathWave& wave) {
+    const Vec3 direction = sample_receiving_cosine(receiver, u);
     const float pdf = pdf_receiving_cosine(receiver, direction);
-    if (pdf > 0) wave.add({receiver.origin, direction}, {.pdf = pdf, .slot = replicate});
+    if (pdf > 0)
+        wave.add({receiver.origin, direction},
+                 {.pdf = pdf, .normal = receiver.geometric_normal, .slot = slot});
+}
+
+// Light samples of all kinds of light that rays may find too, and those rays.
+void start_samples(const LitScene& lit, std::span<const SampleRun> runs, PathWave& wave) {
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        const auto& [receiver, seed, first, count] = runs[r];
+        const Sequence sequence(seed);
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            add_light_samples(lit, receiver, sequence, i, slot_of(r, i), wave.shadows);
+            const std::uint32_t replicate = i % kReplicates, index = i / kReplicates;
+            if (takes_turn(seed, replicate, index, kLightSamplesPerRay))
+                add_ray(
+                    receiver,
+                    sequence.sparse_pair(replicate, index / kLightSamplesPerRay, kLightDirection),
+                    slot_of(r, i), wave);
+        }
+    }
 }
 
 // What a cosine-distributed ray found that light samples find with that density. It stands for
@@ -49,8 +66,7 @@ Rgb met_light(const Path& path, Rgb radiance, float pdf_light) {
 }
 
 // Emission that these rays meet, and behind panes; the environment where they meet nothing.
-void settle_rays(const LitScene& lit, const Receiver& receiver, PathWave& wave,
-                 std::span<Rgb, kReplicates> sums) {
+void settle_rays(const LitScene& lit, PathWave& wave, std::span<Rgb> sums) {
     while (!wave.rays.empty()) {
         wave.hits.resize(wave.rays.size());
         lit.caster.intersect(wave.rays, wave.hits);
@@ -59,17 +75,18 @@ void settle_rays(const LitScene& lit, const Receiver& receiver, PathWave& wave,
             Ray ray = wave.rays[i];
             Path path = wave.paths[i];
             const Hit& hit = wave.hits[i];
+            const LitPlace from = {ray.origin, path.normal};
             if (!hit) {
                 if (!lit.environment.empty())
                     sums[path.slot] +=
                         met_light(path, path.throughput * lit.environment.radiance(ray.direction),
-                                  lit.environment.pdf(lit_place(receiver), ray.direction));
+                                  lit.environment.pdf(from, ray.direction));
                 continue;
             }
             const Rgb radiance = path.throughput * emission(lit.scene, hit.point, hit.front);
             if (max_component(radiance) > 0)
-                sums[path.slot] += met_light(
-                    path, radiance, pdf_area_light(lit, lit_place(receiver), ray.direction, hit));
+                sums[path.slot] +=
+                    met_light(path, radiance, pdf_area_light(lit, from, ray.direction, hit));
             path.throughput *= passed_straight(lit, hit, ray);
             if (!(max_component(path.throughput) > 0)) continue;
             wave.rays[left] = ray;
@@ -80,19 +97,32 @@ void settle_rays(const LitScene& lit, const Receiver& receiver, PathWave& wave,
     }
 }
 
+// Lamps or suns, which no ray finds, chosen by `connect`.
+template <typename Connect>
+void add_chosen_lights(const LitScene& lit, std::span<const SampleRun> runs, ShadowBatch& shadows,
+                       const Connect& connect) {
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        const auto& [receiver, seed, first, count] = runs[r];
+        const Sequence sequence(seed);
+        for (std::uint32_t i = first; i < first + count; ++i)
+            if (const auto connection = connect(lit, receiver, sequence.number(i, kLightChoice)))
+                shadows.add(*connection, connection->irradiance, slot_of(r, i));
+    }
+}
+
 }  // namespace
 
-Rgb exact_direct_light(const LitScene& lit, const Receiver& receiver, PathWave& scratch) {
+void add_exact_direct_light(const LitScene& lit, std::span<const SampleRun> runs, PathWave& scratch,
+                            std::span<Rgb> sums) {
     scratch.shadows.clear();
     for (const auto& lights : {lit.punctual.lamps(), lit.punctual.suns()}) {
         if (!few(lights)) continue;
-        for (const std::uint32_t light : lights)
-            if (const auto connection = connect_punctual(lit, receiver, light))
-                scratch.shadows.add(*connection, connection->irradiance, 0);
+        for (std::uint32_t r = 0; r < runs.size(); ++r)
+            for (const std::uint32_t light : lights)
+                if (const auto connection = connect_punctual(lit, runs[r].receiver, light))
+                    scratch.shadows.add(*connection, connection->irradiance, r);
     }
-    Rgb sum(0);
-    scratch.shadows.settle(lit.caster, {&sum, 1});
-    return sum;
+    scratch.shadows.settle(lit.caster, sums);
 }
 
 bool direct_light_is_exact(const LitScene& lit) {
@@ -100,28 +130,15 @@ bool direct_light_is_exact(const LitScene& lit) {
            few(lit.punctual.suns());
 }
 
-void add_direct_samples(const LitScene& lit, const Receiver& receiver, std::uint32_t seed,
-                        std::uint32_t first, std::uint32_t count, PathWave& scratch,
-                        std::span<Rgb, kReplicates> sums) {
-    const Sequence sequence(seed);
+void add_direct_samples(const LitScene& lit, std::span<const SampleRun> runs, PathWave& scratch,
+                        std::span<Rgb> sums) {
     scratch.clear();
     if (!lit.area_lights.empty() || !lit.environment.empty()) {
-        for (std::uint32_t i = first; i < first + count; ++i) {
-            add_light_samples(lit, receiver, sequence, i, scratch.shadows);
-            const std::uint32_t replicate = i % kReplicates;
-            const std::uint32_t index = i / kReplicates;
-            if (takes_turn(seed, replicate, index, kLightSamplesPerRay))
-                add_ray(receiver, sequence, replicate, index / kLightSamplesPerRay, scratch);
-        }
-        settle_rays(lit, receiver, scratch, sums);
+        start_samples(lit, runs, scratch);
+        settle_rays(lit, scratch, sums);
     }
-    const auto add_samples = [&](const auto& connect) {
-        for (std::uint32_t i = first; i < first + count; ++i)
-            if (const auto connection = connect(lit, receiver, sequence.number(i, kLightChoice)))
-                scratch.shadows.add(*connection, connection->irradiance, i % kReplicates);
-    };
-    if (!few(lit.punctual.lamps())) add_samples(connect_lamp);
-    if (!few(lit.punctual.suns())) add_samples(connect_sun);
+    if (!few(lit.punctual.lamps())) add_chosen_lights(lit, runs, scratch.shadows, connect_lamp);
+    if (!few(lit.punctual.suns())) add_chosen_lights(lit, runs, scratch.shadows, connect_sun);
     scratch.shadows.settle(lit.caster, sums);
 }
 

@@ -2,8 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "sample_renderer/direct_light.h"
-#include "sample_renderer/indirect_light.h"
+#include "sample_renderer/cell_filling.h"
 #include "sample_renderer/shade_tasks.h"
 
 #include <algorithm>
@@ -15,34 +14,12 @@ namespace {
 // Samples between two updates of the cells.
 constexpr std::uint32_t kBatchSamples = 16384;
 
-// A cell is filled once this many rays have asked for it: about as many paths as filling it costs.
-constexpr float kAskedBeforeFilled = 8;
-
-// One unit of filling: this many direct samples and as many traced paths from one place.
-constexpr std::uint32_t kSamplesAUnit = 4;
-constexpr std::uint32_t kFirstUnits = 2;
-constexpr std::uint32_t kMostUnits = 512;
-
-// Paths that fill cells end in others of at least so many units.
-constexpr std::uint32_t kKnownWell = 8;
-// Another unit for every so many rays that end in the cell: filling then costs about half of what
-// the rays cost.
-constexpr float kRaysAUnit = 16;
-
 // One in so many rays that end in a cell is noted, and stands for all of them. (By chance alone:
 // were cells that seem bright filled more, those that seem dark by bad luck would stay so.)
 constexpr float kRaysANote = 8;
 
 // One in so many samples also aims at what is bright.
 constexpr std::uint32_t kSamplesAnAimedRay = 4;
-
-// A ray that asked for a cell, and where it met the surface.
-struct Asking {
-    CellKey key;
-    float rays;  // that it stands for
-    Receiver place;
-    CellId cell = CellId::none;  // once it is known
-};
 
 // What of one request's estimate hangs on each cell: errors of a cell are common to all rays that
 // end in it.
@@ -100,129 +77,50 @@ struct Scratch {
     CellShares shares;
 };
 
-// The cell in which a path ends that met a surface, if there may be one.
-std::optional<CellKey> cell_met(const IrradianceCells& cells, const Hit& hit, const Receiver& met,
-                                BounceNumbers& numbers) {
-    const Vec3 jitter(numbers.next(), numbers.next(), numbers.next());
-    return cell_at(cells.grid(), hit.point.object, met.position, met.geometric_normal, hit.t,
-                   jitter);
+bool takes_note(const Path& path, std::uint32_t bounce) {
+    constexpr std::uint32_t kNoteSalt = 0x907e;
+    return BounceNumbers(hash32(path.key, kNoteSalt), bounce).next() * kRaysANote < 1;
 }
 
 // The indirect part of a request, or a glossy request, by rays that end in cells; appends to
 // `asking`.
 TaskResult gather(const LitScene& lit, IndirectOptions options, const IrradianceCells& cells,
-                  const Receiver& receiver, const Task& task, const ShadeRequest& request,
+                  const SampleRun& run, const Task& task, const ShadeRequest& request,
                   Scratch& scratch, std::vector<Asking>& asking) {
     scratch.shares.reset(task.count);
     TaskResult result;
     std::array<Rgb, kReplicates> ended = {};
-    const EndsAt ends_at = [&](const Path& path, std::uint32_t bounce, const Hit& hit,
-                               const Receiver& met, Rgb reflected) {
-        BounceNumbers numbers(hash32(path.key, 0xce11U), bounce);
-        const auto key = cell_met(cells, hit, met, numbers);
-        if (!key) return false;
-        const CellId id = cells.find(*key);
-        if (id == CellId::none || cells.cell(id).samples == 0) {
-            asking.push_back({*key, 1, met});
-            return false;
-        }
-        const Rgb weight = reflected * (1 / kPi);
-        if (numbers.next() * kRaysANote < 1) asking.push_back({*key, kRaysANote, met});
-        ended[path.slot] += weight * cells.cell(id).mean;
-        scratch.shares.add(id, luminance(weight));
-        return true;
+    const EndsAt ends_at = [&](const Meetings& met) {
+        CellFound found[kLanes];
+        std::uint32_t here = 0;
+        const Lanes3 reflected(met.reflected);
+        for_each_lane(find_cells(cells, met, found), [&](int i) {
+            const auto [id, wants] = found[i];
+            const Path& path = met.paths[i];
+            const bool wanting = id == CellId::none || cells.cell(id).key != wants;
+            if (wanting)
+                asking.push_back({wants, 1, lane(met.met, i)});
+            else if (takes_note(path, met.bounce))
+                asking.push_back({wants, kRaysANote, lane(met.met, i)});
+            if (id == CellId::none) return;
+            here |= 1U << i;
+            const Rgb weight = reflected.lane(i) * (1 / kPi);
+            ended[path.slot] += weight * cells.cell(id).mean;
+            scratch.shares.add(id, luminance(weight));
+        });
+        return here;
     };
     options.ends_at = &ends_at;
     float scale = 1;
     if (task.light == Light::indirect) {
         scale = kPi;
-        result.rays =
-            add_indirect_samples(lit, receiver, hash32(request.seed, kIndirectSalt), task.first,
-                                 task.count, scratch.wave, result.sums, options);
+        result.rays = add_indirect_samples(lit, {&run, 1}, scratch.wave, result.sums, options);
     } else {
         result = run_glossy(lit, task, request, scratch.wave, &ends_at);
     }
     for (std::uint32_t r = 0; r < kReplicates; ++r) result.sums[r] += scale * ended[r];
     result.shared_variance = scale * scale * scratch.shares.variance(cells);
     return result;
-}
-
-// A cell that is to be filled further, and the rays that asked for it: askings[first, last).
-struct Filling {
-    CellId cell;
-    std::uint32_t units;
-    std::size_t first, last;
-};
-
-std::uint32_t units_wanted(float hits) {
-    if (hits < kAskedBeforeFilled) return 0;
-    return std::clamp(static_cast<std::uint32_t>(hits / kRaysAUnit), kFirstUnits, kMostUnits);
-}
-
-// Sorts what was asked for by cell and tells which cells have earned more samples. Doubling them at
-// least keeps their number in step with the rays at few visits.
-std::vector<Filling> plan(IrradianceCells& cells, std::vector<Asking>& asking) {
-    for (Asking& a : asking) {
-        a.cell = cells.find_or_add(a.key);
-        cells.count_hits(a.cell, a.rays);
-    }
-    std::stable_sort(asking.begin(), asking.end(),
-                     [](const Asking& a, const Asking& b) { return a.cell < b.cell; });
-
-    std::vector<Filling> fillings;
-    for (std::size_t first = 0; first < asking.size();) {
-        const CellId id = asking[first].cell;
-        std::size_t last = first;
-        while (last < asking.size() && asking[last].cell == id) ++last;
-        const IrradianceCell& cell = cells.cell(id);
-        const std::uint32_t wanted = units_wanted(cell.hits);
-        if (wanted >= std::max(2 * cell.samples, kFirstUnits))
-            fillings.push_back({id, wanted - cell.samples, first, last});
-        first = last;
-    }
-    return fillings;
-}
-
-// Irradiance at one place by samples [first, first + kSamplesAUnit) of everything [lux a channel].
-// Paths end in cells that are known well.
-Rgb sample_irradiance(const LitScene& lit, const IrradianceCells& cells, const Aims* aims,
-                      const Receiver& place, std::uint32_t seed, std::uint32_t first,
-                      PathWave& scratch) {
-    std::array<Rgb, kReplicates> sums = {}, ended = {};
-    const Rgb exact = exact_direct_light(lit, place, scratch);
-    if (!direct_light_is_exact(lit))
-        add_direct_samples(lit, place, hash32(seed, kDirectSalt), first, kSamplesAUnit, scratch,
-                           sums);
-    const EndsAt ends_at = [&](const Path& path, std::uint32_t bounce, const Hit& hit,
-                               const Receiver& met, Rgb reflected) {
-        BounceNumbers numbers(hash32(path.key, 0xce11U), bounce);
-        const auto key = cell_met(cells, hit, met, numbers);
-        if (!key) return false;
-        const CellId id = cells.find(*key);
-        if (id == CellId::none || cells.cell(id).samples < kKnownWell) return false;
-        ended[path.slot] += reflected * cells.cell(id).mean;
-        return true;
-    };
-    add_indirect_samples(lit, place, hash32(seed, kIndirectSalt), first, kSamplesAUnit, scratch,
-                         sums, {.ends_at = &ends_at, .aims = aims});
-    Rgb sum(0);
-    for (std::uint32_t r = 0; r < kReplicates; ++r) sum += sums[r] + ended[r];
-    return exact + sum * (1.0f / kSamplesAUnit);
-}
-
-CellSamples fill(const LitScene& lit, const IrradianceCells& cells, const Aims* aims,
-                 const Filling& filling, std::span<const Asking> asking, PathWave& scratch) {
-    const IrradianceCell& cell = cells.cell(filling.cell);
-    const std::uint32_t seed = hash64(static_cast<std::uint64_t>(cell.key));
-    const std::size_t places = filling.last - filling.first;
-    CellSamples samples;
-    for (std::uint32_t u = 0; u < filling.units; ++u) {
-        const Receiver& place = asking[filling.first + (places * u / filling.units) % places].place;
-        // The cell's sequence goes on from place to place, so that it is spread well over all.
-        samples.add(sample_irradiance(lit, cells, aims, place, seed,
-                                      kSamplesAUnit * (cell.samples + u), scratch));
-    }
-    return samples;
 }
 
 }  // namespace
@@ -259,24 +157,18 @@ void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<Sha
             const Task& task = tasks[begin + i];
             const ShadeRequest& request = requests[task.request];
             const Receiver receiver = request_receiver(lit_, request);
+            const SampleRun run = task_run(receiver, task, request);
             TaskResult& part = parts[begin + i];
             part = task.light == Light::direct
-                       ? run_direct(lit_, receiver, task, request, scratch.wave)
-                       : gather(lit_, options, cells_, receiver, task, request, scratch, asked[i]);
+                       ? run_direct(lit_, run, task, scratch.wave)
+                       : gather(lit_, options, cells_, run, task, request, scratch, asked[i]);
             probe_if_dark(lit_, open_sides_, receiver, task, request, scratch.wave, part);
         });
 
         // What it asked for, in the order of tasks.
         std::vector<Asking> asking;
         for (const auto& some : asked) asking.insert(asking.end(), some.begin(), some.end());
-        const std::vector<Filling> fillings = plan(cells_, asking);
-        std::vector<CellSamples> filled(fillings.size());
-        parallel_for(threads_, fillings.size(), [&](std::size_t i) {
-            thread_local PathWave scratch;
-            filled[i] = fill(lit_, cells_, options.aims, fillings[i], asking, scratch);
-        });
-        for (std::size_t i = 0; i < fillings.size(); ++i)
-            cells_.store(fillings[i].cell, filled[i], version_);
+        fill_cells(lit_, options.aims, threads_, cells_, asking);
         begin = end;
     }
     combine(requests, tasks, parts, results);

@@ -11,7 +11,7 @@
 namespace chiaro {
 
 /// Direct light is PathRenderer's. Of indirect light, rays that meet a surface too near for a cell,
-/// or whose cell nobody has filled yet, are traced on.
+/// or where neither their cell is known nor the one twice as long, are traced on.
 ///
 /// Cells are filled once enough rays have asked for them, from the places that these rays met, and
 /// filled further in proportion to what ends in them. Reads see them as they stood before the
@@ -36,7 +36,6 @@ private:
     int threads_;
     SampledSurfaces bright_;
     IrradianceCells cells_;
-    std::uint32_t version_ = 1;
 };
 
 }  // namespace chiaro

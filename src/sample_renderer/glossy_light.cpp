@@ -47,7 +47,7 @@ void start_at_surface(const LitScene& lit, const ShadeRequest& request, std::uin
 
 // Light samples at the surface, and the rays that go on from it.
 void scatter_all(const LitScene& lit, PathWave& wave) {
-    const EndsAt leave_out_diffuse = [](auto&&...) { return true; };
+    const EndsAt leave_out_diffuse = [](const Meetings& all) { return all.lanes; };
     std::size_t left = 0;
     for (std::size_t i = 0; i < wave.paths.size(); ++i) {
         const MetSurface surface = describe(lit, wave.hits[i]);
@@ -91,9 +91,9 @@ void add_glossy_samples(const LitScene& lit, const ShadeRequest& request, std::u
                         std::uint32_t count, PathWave& scratch, std::span<Rgb, kReplicates> sums,
                         const EndsAt* ends_at) {
     start_at_surface(lit, request, first, count, scratch);
-    const EndsAt diffuse_is_known = [&](const Path& path, std::uint32_t bounce, const Hit& hit,
-                                        const Receiver& met, Rgb reflected) {
-        return bounce == 0 || (ends_at && (*ends_at)(path, bounce, hit, met, reflected));
+    const EndsAt diffuse_is_known = [&](const Meetings& met) {
+        if (met.bounce == 0) return met.lanes;
+        return ends_at ? (*ends_at)(met) : 0;
     };
     follow(lit, scratch, FirstEmission::skipped, sums, &diffuse_is_known);
 }

@@ -34,13 +34,15 @@ void for_each_first_ray(const Receiver& receiver, const Sequence& sequence, std:
 }
 
 // One cosine-distributed ray a sample. Cosine over density is pi, which the throughput leaves out.
-void start_paths(const Receiver& receiver, std::uint32_t seed, std::uint32_t first,
-                 std::uint32_t count, PathWave& wave) {
-    const Sequence sequence(seed);
+void start_paths(std::span<const SampleRun> runs, PathWave& wave) {
     wave.clear();
-    for_each_first_ray(receiver, sequence, first, count, [&](std::uint32_t i, const Ray& ray) {
-        wave.add(ray, make_path(sequence, i, i % kReplicates));
-    });
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        const auto& [receiver, seed, first, count] = runs[r];
+        const Sequence sequence(seed);
+        for_each_first_ray(receiver, sequence, first, count, [&](std::uint32_t i, const Ray& ray) {
+            wave.add(ray, make_path(sequence, i, slot_of(r, i)));
+        });
+    }
 }
 
 }  // namespace
@@ -56,20 +58,23 @@ RayCount count_inside(const OpenSides* open_sides, std::span<const Hit> hits) {
     return count;
 }
 
-RayCount add_indirect_samples(const LitScene& lit, const Receiver& receiver, std::uint32_t seed,
-                              std::uint32_t first, std::uint32_t count, PathWave& scratch,
-                              std::span<Rgb, kReplicates> sums, const IndirectOptions& options) {
+RayCount add_indirect_samples(const LitScene& lit, std::span<const SampleRun> runs,
+                              PathWave& scratch, std::span<Rgb> sums,
+                              const IndirectOptions& options) {
     thread_local std::vector<SurfacePoint> targets;
-    start_paths(receiver, seed, first, count, scratch);
-    if (options.aims) add_aimed_rays(*options.aims, receiver, seed, first, count, scratch, targets);
+    thread_local std::vector<Rgb> radiance;
+    start_paths(runs, scratch);
+    const std::size_t by_cosine = scratch.rays.size();
+    if (options.aims) add_aimed_rays(*options.aims, runs, scratch, targets);
     scratch.hits.resize(scratch.rays.size());
     lit.caster.intersect(scratch.rays, scratch.hits);
-    const RayCount rays = count_inside(options.open_sides, std::span(scratch.hits).first(count));
-    if (options.aims) weigh_aimed_rays(*options.aims, receiver, targets, scratch);
+    const RayCount rays =
+        count_inside(options.open_sides, std::span(scratch.hits).first(by_cosine));
+    if (options.aims) weigh_aimed_rays(*options.aims, runs, targets, scratch);
 
-    std::array<Rgb, kReplicates> radiance = {};
+    radiance.assign(sums.size(), Rgb(0));
     follow(lit, scratch, FirstEmission::skipped, radiance, options.ends_at);
-    for (std::uint32_t r = 0; r < kReplicates; ++r) sums[r] += kPi * radiance[r];
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += kPi * radiance[i];
     return rays;
 }
 

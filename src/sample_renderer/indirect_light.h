@@ -26,11 +26,10 @@ struct IndirectOptions {
     const Aims* aims = nullptr;             // surfaces that some rays are aimed at, too
 };
 
-/// Adds the estimates of samples [first, first + count) to the sums of their replicates [lux a
-/// channel]: a path each whose first ray is distributed by the cosine.
-RayCount add_indirect_samples(const LitScene& lit, const Receiver& receiver, std::uint32_t seed,
-                              std::uint32_t first, std::uint32_t count, PathWave& scratch,
-                              std::span<Rgb, kReplicates> sums,
+/// Adds the estimates of all runs to the sums of their replicates (sample_run.h) [lux a channel]: a
+/// path a sample whose first ray is distributed by the cosine.
+RayCount add_indirect_samples(const LitScene& lit, std::span<const SampleRun> runs,
+                              PathWave& scratch, std::span<Rgb> sums,
                               const IndirectOptions& options = {});
 
 /// Shoots `count` cosine-distributed rays only to see what they meet.

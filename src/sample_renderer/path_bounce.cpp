@@ -111,7 +111,12 @@ bool scatter(const Bounce& here, Path& path, Ray& ray) {
     Bsdf& bsdf = surface.bsdf;
     if (here.ends_at && has_diffuse(bsdf)) {
         const Rgb reflected = path.throughput * diffuse_albedo(bsdf, surface.from.z);
-        if ((*here.ends_at)(path, here.number, here.hit, receiver, reflected)) {
+        if ((*here.ends_at)({{&path, 1},
+                             {&here.hit, 1},
+                             everywhere(receiver),
+                             everywhere(reflected),
+                             here.number,
+                             1}) != 0) {
             if (is_lambertian(bsdf)) return false;
             bsdf = specular_only(bsdf);
         }

@@ -13,14 +13,13 @@ SampleCosts PathRenderer::typical_costs() const {
 }
 
 void PathRenderer::shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) {
-    shade_requests(
-        lit_, open_sides_, threads_, requests, results,
-        [&](const Receiver& receiver, const Task& task, std::uint32_t seed, PathWave& scratch) {
-            TaskResult result;
-            result.rays = add_indirect_samples(lit_, receiver, seed, task.first, task.count,
-                                               scratch, result.sums, {.open_sides = open_sides_});
-            return result;
-        });
+    shade_requests(lit_, open_sides_, threads_, requests, results,
+                   [&](const SampleRun& run, const Task&, PathWave& scratch) {
+                       TaskResult result;
+                       result.rays = add_indirect_samples(lit_, {&run, 1}, scratch, result.sums,
+                                                          {.open_sides = open_sides_});
+                       return result;
+                   });
 }
 
 }  // namespace chiaro

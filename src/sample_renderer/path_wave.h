@@ -70,12 +70,20 @@ struct PathWave {
 /// where it meets none.
 enum class FirstEmission { skipped, counted };
 
-/// Asked at each surface with diffuse light that a path meets, before the path is lit there: true
-/// ends it for that light, whoever is asked having added what it knows. `reflected` is the
-/// throughput after a diffuse reflection here; divided by pi, radiance over irradiance. The hit is
-/// at distance `hit.t`.
-using EndsAt = std::function<bool(const Path& path, std::uint32_t bounce, const Hit& hit,
-                                  const Receiver& met, Rgb reflected)>;
+/// Up to eight paths that met surfaces with diffuse light, in lanes.
+struct Meetings {
+    std::span<const Path> paths;
+    std::span<const Hit> hits;  // at distance Hit::t
+    const Receiver8& met;
+    const Vec3x8& reflected;  // throughput after a diffuse reflection here; divided by pi, radiance
+                              // over irradiance
+    std::uint32_t bounce;
+    std::uint32_t lanes;  // a bit for each that asks; others hold anything
+};
+
+/// Asked before paths are lit where they are: those of the lanes that it returns end for diffuse
+/// light, whoever is asked having added what it knows.
+using EndsAt = std::function<std::uint32_t(const Meetings& meetings)>;
 
 /// Follows all paths of the wave to their ends and adds the radiance that each finds along its
 /// first ray, times its throughput, to sums[slot]. The first hits must be in place: the caller

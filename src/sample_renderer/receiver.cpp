@@ -8,6 +8,11 @@ Receiver make_receiver(const RayCaster& caster, ObjectId object, Vec3 position,
     return {position, position + lift * geometric_normal, geometric_normal, shading_normal};
 }
 
+Receiver lane(const Receiver8& receivers, int i) {
+    return {Lanes3(receivers.position).lane(i), Lanes3(receivers.origin).lane(i),
+            Lanes3(receivers.geometric_normal).lane(i), Lanes3(receivers.shading_normal).lane(i)};
+}
+
 Vec3 sample_receiving_cosine(const Receiver& receiver, Vec2 u) {
     const Vec3 w = from_frame(receiver.shading_normal, square_to_cosine_hemisphere(u));
     return glm::dot(receiver.geometric_normal, w) > 0 ? w : mirrored(receiver, w);

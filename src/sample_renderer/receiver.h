@@ -26,6 +26,8 @@ inline Receiver8 everywhere(const Receiver& r) {
             everywhere(r.shading_normal)};
 }
 
+Receiver lane(const Receiver8& receivers, int i);
+
 /// The same place, receiving on its other side.
 inline Receiver other_side(const Receiver& r) {
     return {r.position, 2.0f * r.position - r.origin, -r.geometric_normal, -r.shading_normal};

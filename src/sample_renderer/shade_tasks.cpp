@@ -81,14 +81,16 @@ Receiver request_receiver(const LitScene& lit, const ShadeRequest& request) {
                          side * g.shading_normal);
 }
 
-TaskResult run_direct(const LitScene& lit, const Receiver& receiver, const Task& task,
-                      const ShadeRequest& request, PathWave& scratch) {
-    const std::uint32_t seed = hash32(request.seed, kDirectSalt);
-    TaskResult result;
-    if (task.starts) result.exact = exact_direct_light(lit, receiver, scratch);
-    if (!direct_light_is_exact(lit))
-        add_direct_samples(lit, receiver, seed, task.first, task.count, scratch, result.sums);
+SampleRun task_run(const Receiver& receiver, const Task& task, const ShadeRequest& request) {
+    const std::uint32_t salt = task.light == Light::direct ? kDirectSalt : kIndirectSalt;
+    return {receiver, hash32(request.seed, salt), task.first, task.count};
+}
 
+TaskResult run_direct(const LitScene& lit, const SampleRun& run, const Task& task,
+                      PathWave& scratch) {
+    TaskResult result;
+    if (task.starts) add_exact_direct_light(lit, {&run, 1}, scratch, {&result.exact, 1});
+    if (!direct_light_is_exact(lit)) add_direct_samples(lit, {&run, 1}, scratch, result.sums);
     return result;
 }
 
@@ -139,11 +141,11 @@ void shade_requests(const LitScene& lit, const OpenSides* open_sides, int thread
         for (std::size_t t = body * kTasksPerBody; t < end; ++t) {
             const ShadeRequest& request = requests[tasks[t].request];
             const Receiver receiver = request_receiver(lit, request);
-            const std::uint32_t seed = hash32(request.seed, kIndirectSalt);
+            const SampleRun run = task_run(receiver, tasks[t], request);
             if (tasks[t].light == Light::direct)
-                parts[t] = run_direct(lit, receiver, tasks[t], request, scratch);
+                parts[t] = run_direct(lit, run, tasks[t], scratch);
             else if (tasks[t].light == Light::indirect)
-                parts[t] = run_indirect(receiver, tasks[t], seed, scratch);
+                parts[t] = run_indirect(run, tasks[t], scratch);
             else
                 parts[t] = run_glossy(lit, tasks[t], request, scratch);
             probe_if_dark(lit, open_sides, receiver, tasks[t], request, scratch, parts[t]);

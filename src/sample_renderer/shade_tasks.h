@@ -35,9 +35,12 @@ std::vector<Task> split_into_tasks(std::span<const ShadeRequest> requests);
 /// Where a request receives light.
 Receiver request_receiver(const LitScene& lit, const ShadeRequest& request);
 
+/// The samples of a task of a request for direct or indirect light.
+SampleRun task_run(const Receiver& receiver, const Task& task, const ShadeRequest& request);
+
 /// The direct part of a request, by light samples.
-TaskResult run_direct(const LitScene& lit, const Receiver& receiver, const Task& task,
-                      const ShadeRequest& request, PathWave& scratch);
+TaskResult run_direct(const LitScene& lit, const SampleRun& run, const Task& task,
+                      PathWave& scratch);
 
 /// A request for light by way of glossy surfaces. What paths end at early is not added here.
 TaskResult run_glossy(const LitScene& lit, const Task& task, const ShadeRequest& request,
@@ -50,8 +53,8 @@ void probe_if_dark(const LitScene& lit, const OpenSides* open_sides, const Recei
                    TaskResult& result);
 
 /// Computes the indirect part of a request.
-using RunIndirect = std::function<TaskResult(const Receiver& receiver, const Task& task,
-                                             std::uint32_t seed, PathWave& scratch)>;
+using RunIndirect =
+    std::function<TaskResult(const SampleRun& run, const Task& task, PathWave& scratch)>;
 
 /// All of shade() for renderers whose tasks are independent. `open_sides` may be null.
 void shade_requests(const LitScene& lit, const OpenSides* open_sides, int threads,

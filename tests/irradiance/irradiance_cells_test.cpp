@@ -22,6 +22,12 @@ CellGrid unit_grid() {
     return make_cell_grid({Vec3(0), Vec3(side)});
 }
 
+// The cell in which a ray of length `distance` should end.
+CellKey cell_for(const CellGrid& grid, ObjectId object, Vec3 position, Vec3 normal, float distance,
+                 Vec3 jitter) {
+    return cell_at(grid, {object, position, normal, jitter}, *level_of(grid, distance));
+}
+
 // Cells are 1/60 of the diagonal and halve with the ray's length: never more than a
 // quarter of it.
 TEST(CellAt, CellsAreSmallFromWhereTheyAreSeen) {
@@ -31,14 +37,14 @@ TEST(CellAt, CellsAreSmallFromWhereTheyAreSeen) {
     for (const float distance : {0.04f, 0.1f, 0.7f, 3.9f, 4.1f, 100.0f}) {
         std::set<CellKey> along;  // cells met along a line of length 8
         for (int i = 0; i < 80'000; ++i)
-            along.insert(*cell_at(grid, kObject, {1 + 1e-4f * static_cast<float>(i), 5.3f, 5.2f},
+            along.insert(cell_for(grid, kObject, {1 + 1e-4f * static_cast<float>(i), 5.3f, 5.2f},
                                   kUp, distance, kMiddle));
         const double size = 8.0 / static_cast<double>(along.size() - 1);
         EXPECT_LE(size, std::min(1.0f, distance / 4) * 1.15) << distance;
         EXPECT_GE(size, std::min(1.0f, distance / 4) / 2.3) << distance;
     }
-    EXPECT_FALSE(cell_at(grid, kObject, Vec3(5), kUp, 0.9f * grid.shortest(), kMiddle).has_value());
-    EXPECT_FALSE(cell_at(grid, kObject, Vec3(5), kUp, std::nanf(""), kMiddle).has_value());
+    EXPECT_FALSE(level_of(grid, 0.9f * grid.shortest()).has_value());
+    EXPECT_FALSE(level_of(grid, std::nanf("")).has_value());
 }
 
 // The six directions that a surface may face are kept apart, so that no light goes through a wall.
@@ -55,7 +61,7 @@ TEST(CellAt, SidesOfAWallAreApart) {
                 const Vec3 along = Vec3(0.5f) - glm::abs(normal) * 0.5f;
                 const Vec3 at = glm::floor((Vec3(10) - grid.origin)) + grid.origin + 0.5f;
                 keys.insert(
-                    *cell_at(grid, kObject, at, normal, 100, glm::mix(kMiddle, jitter, along)));
+                    cell_for(grid, kObject, at, normal, 100, glm::mix(kMiddle, jitter, along)));
             }
         }
     // Jitter may lead into neighbours, of which there are 9 on each side.
@@ -71,8 +77,8 @@ TEST(CellAt, SidesOfAWallAreApart) {
 TEST(CellAt, ObjectsAreApart) {
     const CellGrid grid = unit_grid();
     const auto other = static_cast<ObjectId>(8);
-    EXPECT_NE(*cell_at(grid, kObject, Vec3(5), kUp, 100, kMiddle),
-              *cell_at(grid, other, Vec3(5), kUp, 100, kMiddle));
+    EXPECT_NE(cell_for(grid, kObject, Vec3(5), kUp, 100, kMiddle),
+              cell_for(grid, other, Vec3(5), kUp, 100, kMiddle));
 }
 
 // Jitter moves along the surface, not off it: a flat floor is one layer of cells.
@@ -84,7 +90,7 @@ TEST(CellAt, JitterStaysOnTheSurface) {
     for (int i = 0; i < 10'000; ++i) {
         const Vec3 at(30 * rng.uniform(), 30 * rng.uniform(), height);
         const Vec3 jitter(rng.uniform(), rng.uniform(), rng.uniform());
-        layers.insert(static_cast<std::uint64_t>(*cell_at(grid, kObject, at, kUp, 100, jitter)) &
+        layers.insert(static_cast<std::uint64_t>(cell_for(grid, kObject, at, kUp, 100, jitter)) &
                       0x7fff);
     }
     EXPECT_EQ(layers.size(), 1u);
@@ -98,7 +104,7 @@ TEST(CellAt, JitterBlendsNeighbours) {
     Rng rng(4);
     std::map<CellKey, int> counts;
     for (int i = 0; i < 1000; ++i)
-        ++counts[*cell_at(grid, kObject, {border, 5.2f, 5.2f}, kUp, 100,
+        ++counts[cell_for(grid, kObject, {border, 5.2f, 5.2f}, kUp, 100,
                           {rng.uniform(), 0.5f, 0.5f})];
     ASSERT_EQ(counts.size(), 2u);
     EXPECT_NEAR(counts.begin()->second, 500, 96);
@@ -132,7 +138,7 @@ TEST(IrradianceCells, MergesMeansAndVariances) {
             sum += x;
             squares += double(x) * x;
         }
-        cells.store(id, samples, 1);
+        cells.store(id, samples);
     }
     const double mean = sum / 128;
     EXPECT_EQ(cells.cell(id).samples, 128u);
@@ -148,12 +154,15 @@ TEST(IrradianceCells, OlderSamplesMakeWay) {
     CellSamples old, fresh;
     for (int i = 0; i < 8; ++i) old.add(Rgb(100));
     for (int i = 0; i < 2; ++i) fresh.add(Rgb(3));
-    cells.store(id, old, 1);
-    EXPECT_EQ(cells.cell(id).version, 1u);
-    cells.store(id, fresh, 2);
+    EXPECT_FALSE(cells.known(id));
+    cells.store(id, old);
+    EXPECT_TRUE(cells.known(id));
+    cells.outdate();
+    EXPECT_FALSE(cells.known(id));
+    cells.store(id, fresh);
+    EXPECT_TRUE(cells.known(id));
     EXPECT_EQ(cells.cell(id).mean, Rgb(3));
     EXPECT_EQ(cells.cell(id).samples, 2u);
-    EXPECT_EQ(cells.cell(id).version, 2u);
     EXPECT_EQ(cells.cell(id).variance(), 0);
 }
 
