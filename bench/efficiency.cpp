@@ -1,7 +1,8 @@
 // Efficiency, 1 / (mean squared error x time), of sample renderers at places of a scene: what one
 // evaluation of indirect light costs and what it is worth. Prints JSON.
 //
-// usage: efficiency SCENE RENDERER[,RENDERER...] [--samples N] [--eye ... as chiaro render]
+// usage: efficiency SCENE RENDERER[,RENDERER...] [--light indirect|direct|total]
+//   [--samples N] [--eye ... as chiaro render]
 //
 // Places are what rays through a grid of the picture's pixels meet. Errors are relative to the
 // truth there, two halves of many traced paths (or of --truth, a renderer's name) whose own noise
@@ -13,6 +14,7 @@
 #include "apps/open_scene.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "scene/bsdf.h"
 #include "scene/open_sides.h"
 
 #include <fmt/format.h>
@@ -26,6 +28,8 @@ namespace chiaro {
 namespace {
 
 constexpr std::uint32_t kFirstSamples = 64;
+// Of all light together, samples are of the indirect part, beside a quarter as many of the direct.
+constexpr std::uint32_t kIndirectADirect = 4;
 
 struct Settings {
     std::vector<std::string> renderers;
@@ -72,11 +76,13 @@ std::vector<ShadeRequest> places(const Stage& stage, const View& view, const Set
                                      (static_cast<float>(y) + 0.5f) * step);
             Hit hit;
             stage.rays.intersect({&ray, 1}, {&hit, 1}, RayKind::camera);
-            if (!hit) continue;
+            if (!hit || !has_diffuse(bsdf_at(stage.scene, hit.point, hit.front))) continue;
             ShadeRequest request;
             request.where = hit.point;
             request.front = hit.front;
-            request.light = settings.light == "direct" ? Light::direct : Light::indirect;
+            request.light = settings.light == "total"    ? Light::total
+                            : settings.light == "direct" ? Light::direct
+                                                         : Light::indirect;
             requests.push_back(request);
         }
     return requests;
@@ -90,8 +96,10 @@ std::vector<double> shade(SampleRenderer& renderer, std::vector<ShadeRequest> re
     for (std::uint32_t done = 0; done < samples;) {
         const std::uint32_t more = std::min(std::max(done, kFirstSamples), samples - done);
         for (std::uint32_t i = 0; i < requests.size(); ++i) {
-            requests[i].first_sample = done;
-            requests[i].samples = more;
+            const bool both = requests[i].light == Light::total;
+            requests[i].first_sample = both ? done / kIndirectADirect : done;
+            requests[i].samples = both ? more / kIndirectADirect : more;
+            requests[i].indirect_samples = more;
             requests[i].seed = hash32(seed, i);
         }
         renderer.shade(requests, results);
