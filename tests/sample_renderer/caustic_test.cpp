@@ -7,21 +7,6 @@
 namespace chiaro::tiny {
 namespace {
 
-MaterialId add_metal(Scene& scene, Rgb reflectance, float roughness) {
-    const MaterialId id = add_material(scene, reflectance);
-    scene.materials[index_of(id)].gloss = {
-        .model = GlossModel::metallic_roughness, .metallic = 1, .roughness = roughness};
-    return id;
-}
-
-// A mirror of the same reflectance at all angles.
-MaterialId add_mirror(Scene& scene, Rgb reflectance) {
-    const MaterialId id = add_material(scene, Rgb(0));
-    scene.materials[index_of(id)].gloss = {
-        .model = GlossModel::phong, .specular = reflectance, .illumination_model = 3};
-    return id;
-}
-
 struct Renderers {
     const Meter& meter;
     CausticRenderer caustic;
@@ -50,24 +35,49 @@ struct Renderers {
     }
 };
 
-// 100 cd at (0, 0, 1), a mirror of 0.9 in the plane x = 1.5: the floor gets its direct light and
-// that of the image at (3, 0, 1).
-TEST(Caustic, APerfectMirrorAddsItsImageOfALamp) {
+// A mirror of 0.9 in the plane x = 1.5, at all angles.
+Scene beside_a_mirror() {
     Scene scene;
-    add_quad(scene, {1.5f, -20, -20}, {0, 40, 0}, {0, 0, 40}, add_mirror(scene, Rgb(0.9f)));
+    add_quad(scene, {1.5f, -20, -20}, {0, 40, 0}, {0, 0, 40},
+             add_glossy(scene, Rgb(0), mirror(Rgb(0.9f))));
+    return scene;
+}
+
+// 100 cd at (0, 0, 1): the floor gets its direct light and that of the image at (3, 0, 1). This
+// light of a point by way of a mirror is what all renderers lack but `caustic`.
+TEST(Caustic, APerfectMirrorAddsItsImageOfALamp) {
+    Scene scene = beside_a_mirror();
     scene.lights = {point_light({0, 0, 1}, Rgb(100))};
-    const Meter meter(std::move(scene));
-    Renderers both(meter);
     const std::pair<float, float> expected[] = {{-1, 36.639f}, {0, 102.846f}, {1, 43.405f}};
-    for (const auto& [x, lux] : expected) {
-        const Rgb e = Meter::at(both.caustic, {x, 0, 0}, {0, 0, 1}, Light::total, 64).mean;
-        EXPECT_NEAR(e.g / lux, 1, 1e-4) << x;
+    for (const Truth by : kTruths) {
+        const Meter meter(scene, by);
+        for (const auto& [x, lux] : expected) {
+            const float direct = 100 / std::pow(1 + x * x, 1.5f);
+            const float found = meter.at({x, 0, 0}, {0, 0, 1}, Light::total, 64).mean.g;
+            EXPECT_NEAR(found / (by == Truth::caustic ? lux : direct), 1, 1e-4) << x << int(by);
+        }
+    }
+}
+
+// A lamp with extent is shown to the floor by all of them: 0.9 of what a lamp in its image's place
+// brings straight. Standard errors 0.26 % of
+// `path`, 0.6 % of the others.
+TEST(Caustic, APerfectMirrorAddsItsImageOfAPanel) {
+    Scene scene = beside_a_mirror(), image;
+    add_quad(scene, {-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, add_material(scene, Rgb(0), Rgb(100)));
+    add_quad(image, {2, -1, 2}, {0, 2, 0}, {2, 0, 0}, add_material(image, Rgb(0), Rgb(90)));
+    const Vec3 place(0.5f, 0.3f, 0), up(0, 0, 1);
+    const float lux = Meter(image).lux(place, up, Light::direct, 1 << 14);
+    for (const Truth by : kTruths) {
+        const Meter meter(scene, by);
+        const float found = meter.lux(place, up, Light::indirect, meter.worth(1 << 16));
+        EXPECT_NEAR(found / lux, 1, within(by, 0.02)) << int(by);
     }
 }
 
 TEST(Caustic, AMirrorAddsItsImageOfTheSunWhereTheSunReachesIt) {
     Scene scene;
-    add_quad(scene, {1, -1, 0}, {0, 2, 0}, {0, 0, 2}, add_mirror(scene, Rgb(0.5f)));
+    add_quad(scene, {1, -1, 0}, {0, 2, 0}, {0, 0, 2}, add_glossy(scene, Rgb(0), mirror(Rgb(0.5f))));
     scene.lights = {sun({1, 0, -1}, Rgb(1000))};
     const Meter meter(std::move(scene));
     Renderers both(meter);
@@ -84,7 +94,8 @@ TEST(Caustic, AMirrorAddsItsImageOfTheSunWhereTheSunReachesIt) {
 TEST(Caustic, AnImageIsHiddenByWhatStandsInTheWay) {
     for (const Vec3 screen : {Vec3(0.5f, 0, 1), Vec3(0.75f, 0, 0.3f)}) {
         Scene scene;
-        add_quad(scene, {1.5f, -20, -20}, {0, 40, 0}, {0, 0, 40}, add_mirror(scene, Rgb(0.9f)));
+        add_quad(scene, {1.5f, -20, -20}, {0, 40, 0}, {0, 0, 40},
+                 add_glossy(scene, Rgb(0), mirror(Rgb(0.9f))));
         add_quad(scene, screen - Vec3(0, 0.5f, 0.2f), {0, 1, 0}, {0, 0, 0.4f},
                  add_material(scene, Rgb(0)));
         scene.lights = {point_light({0, 0, 1}, Rgb(100))};
@@ -99,7 +110,7 @@ TEST(Caustic, AnImageIsHiddenByWhatStandsInTheWay) {
 // light inside focuses to the cusp of a cardioid.
 Scene ring(float roughness, bool lamp_is_point) {
     Scene scene;
-    const MaterialId gold = add_metal(scene, Rgb(0.95f), roughness);
+    const MaterialId gold = add_glossy(scene, Rgb(0.95f), metal(roughness));
     constexpr std::uint32_t kSides = 64;
     Mesh mesh;
     for (std::uint32_t i = 0; i < kSides; ++i) {
@@ -149,7 +160,7 @@ TEST(Caustic, AimedRaysAreLessNoisyWhereThePlateIsFar) {
             glm::normalize(glm::normalize(place - plate) + glm::normalize(lamp - plate));
         const Vec3 across(0, 1, 0), up = glm::cross(normal, across);
         add_quad(scene, plate - 0.1f * (across + up), 0.2f * across, 0.2f * up,
-                 add_metal(scene, Rgb(0.95f), roughness));
+                 add_glossy(scene, Rgb(0.95f), metal(roughness)));
         add_quad(scene, lamp - Vec3(0, 0.5f, 0.5f), {0, 1, 0}, {0, 0, 1},
                  add_material(scene, Rgb(0), Rgb(1000)));
         const Meter meter(std::move(scene));

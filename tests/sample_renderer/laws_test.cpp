@@ -12,10 +12,12 @@ namespace {
 using tiny::Meter;
 using tiny::Truth;
 
-// Direct light is one code for all.
+// Direct light is the same of all (reproducible_test.cpp).
 constexpr std::pair<Light, Truth> kLightsAndTruths[] = {{Light::direct, Truth::path},
                                                         {Light::indirect, Truth::path},
-                                                        {Light::indirect, Truth::bidirectional}};
+                                                        {Light::indirect, Truth::bidirectional},
+                                                        {Light::indirect, Truth::caustic},
+                                                        {Light::indirect, Truth::gather}};
 
 // A room with a block, a lamp in the ceiling and two sources; `lit` says which of the three shine.
 Scene room(int lit) {
@@ -51,7 +53,7 @@ TEST(Laws, LampsAddUp) {
 }
 
 // Reciprocity: two patches of one size, one shines and the other receives; swapped, the same flux
-// arrives, by all the bounces of the room. Standard error 0.34 %.
+// arrives, by all the bounces of the room. Standard error 0.48 %.
 void expect_swap(Truth by) {
     const Vec3 corners[2] = {{0.4f, 0.5f, 0.8f}, {3, 1.8f, 2.0f}};
     const float size = 0.2f;
@@ -73,11 +75,11 @@ void expect_swap(Truth by) {
                                     .light = Light::total,
                                     .seed = std::uint32_t(requests.size()),
                                     .samples = 1024,
-                                    .indirect_samples = meter.worth(32'768)});
+                                    .indirect_samples = meter.worth(16'384)});
         received[source] = 0;
         for (const ShadeResult& result : meter.shade(requests)) received[source] += result.mean.r;
     }
-    EXPECT_NEAR(received[0] / received[1], 1, within(by, 0.02)) << int(by);
+    EXPECT_NEAR(received[0] / received[1], 1, within(by, 0.025)) << int(by);
 }
 
 TEST(Laws, SourceAndReceiverSwap) {
@@ -100,7 +102,8 @@ Rgb total_in(const Mat4& transform, float intensity_scale, Truth by) {
 
 // Turned and moved, everything is the same; k times as large, area lights give the same and point
 // sources need k^2 times the intensity. The random numbers are alike but the frames about normals
-// turn differently: standard error 0.26 %; of size alone 0.007 %.
+// turn differently: standard error 0.26 %; of size alone 0.007 %, and 0.2 % of `gather`, where
+// roundings choose other cells.
 TEST(Laws, SizeAndOrientationDoNotMatter) {
     for (const Truth by : tiny::kTruths) {
         const Rgb expected = total_in(Mat4(1), 1, by);
@@ -110,9 +113,10 @@ TEST(Laws, SizeAndOrientationDoNotMatter) {
         const Rgb large = total_in(glm::scale(Mat4(1), Vec3(100)), 10'000, by);
         const Rgb small = total_in(glm::scale(Mat4(1), Vec3(0.1f)), 0.01f, by);
         for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(turned[c] / expected[c], 1, within(by, 0.015));
-            EXPECT_NEAR(large[c] / expected[c], 1, 0.001);
-            EXPECT_NEAR(small[c] / expected[c], 1, 0.001);
+            const double alike = by == Truth::gather ? 0.01 : 0.001;
+            EXPECT_NEAR(turned[c] / expected[c], 1, within(by, 0.015)) << int(by);
+            EXPECT_NEAR(large[c] / expected[c], 1, alike) << int(by);
+            EXPECT_NEAR(small[c] / expected[c], 1, alike) << int(by);
         }
     }
 }

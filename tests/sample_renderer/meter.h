@@ -3,6 +3,8 @@
 
 #include "base/random.h"
 #include "sample_renderer/bidirectional_renderer.h"
+#include "sample_renderer/caustic_renderer.h"
+#include "sample_renderer/gather_renderer.h"
 #include "sample_renderer/path_renderer.h"
 #include "sample_renderer/radiance.h"
 #include "sample_renderer/tiny_scenes.h"
@@ -12,13 +14,54 @@
 
 namespace chiaro::tiny {
 
-/// The renderers that tell the truth, whatever the scene.
-enum class Truth { path, bidirectional };
-inline constexpr Truth kTruths[] = {Truth::path, Truth::bidirectional};
+/// The renderers, all of which tell the truth; `gather` within its published bias
+/// (docs/results.md).
+enum class Truth { path, bidirectional, caustic, gather };
+inline constexpr Truth kTruths[] = {Truth::path, Truth::bidirectional, Truth::caustic,
+                                    Truth::gather};
+inline constexpr double kGatherBias = 0.015;
 
-/// A tolerance that was chosen for the noise of `path`, for that of others (Meter::worth()).
+/// A tolerance that was chosen for the noise of `path`, for what others leave of it and for their
+/// bias (Meter::worth()).
 inline double within(Truth by, double tolerance) {
-    return by == Truth::path ? tolerance : 1.5 * tolerance;
+    switch (by) {
+        case Truth::path:
+            return tolerance;
+        case Truth::bidirectional:
+            return 1.5 * tolerance;
+        case Truth::caustic:
+            return 2 * tolerance;
+        case Truth::gather:
+            break;
+    }
+    return tolerance + kGatherBias;
+}
+
+inline std::unique_ptr<SampleRenderer> make_renderer(Truth by, const Scene& scene,
+                                                     const RayCaster& caster,
+                                                     const AreaLights& area_lights,
+                                                     const OpenSides* sides, int threads) {
+    const auto make = [&]<typename Renderer>() {
+        return std::make_unique<Renderer>(scene, caster, area_lights, sides, threads);
+    };
+    switch (by) {
+        case Truth::path:
+            break;
+        case Truth::bidirectional:
+            return make.operator()<BidirectionalRenderer>();
+        case Truth::caustic:
+            return make.operator()<CausticRenderer>();
+        case Truth::gather:
+            return make.operator()<GatherRenderer>();
+    }
+    return make.operator()<PathRenderer>();
+}
+
+/// Asks one that remembers twice: then its cells are filled.
+inline void shade(SampleRenderer& renderer, std::span<const ShadeRequest> requests,
+                  std::span<ShadeResult> results) {
+    if (renderer.remembers()) renderer.shade(requests, results);
+    renderer.shade(requests, results);
 }
 
 /// Everything that renderers need of one scene, at fixed seeds.
@@ -29,6 +72,7 @@ struct Meter {
     OpenSides open_sides;
     LitScene lit;
     Truth by;
+    std::unique_ptr<SampleRenderer> single;  // of one thread, for places that need no surface
 
     explicit Meter(Scene s, Truth told_by = Truth::path)
         : scene(std::move(s)),
@@ -36,7 +80,8 @@ struct Meter {
           area_lights(scene),
           open_sides(scene),
           lit(make_lit_scene(scene, caster, area_lights)),
-          by(told_by) {}
+          by(told_by),
+          single(make_renderer(by, scene, caster, area_lights, nullptr, 1)) {}
     Meter(const Meter&) = delete;
     Meter& operator=(const Meter&) = delete;
 
@@ -51,7 +96,7 @@ struct Meter {
     /// Light at a place that need not lie on a surface.
     ShadeResult at(Vec3 position, Vec3 normal, Light light, std::uint32_t samples,
                    std::uint32_t seed = 1) const {
-        return at(*renderer(nullptr, 1), position, normal, light, samples, seed);
+        return at(*single, position, normal, light, samples, seed);
     }
     static ShadeResult at(SampleRenderer& renderer, Vec3 position, Vec3 normal, Light light,
                           std::uint32_t samples, std::uint32_t seed = 1) {
@@ -61,11 +106,11 @@ struct Meter {
                                       .samples = samples,
                                       .indirect_samples = samples};
         ShadeResult result;
-        renderer.shade({&request, 1}, {&result, 1});
+        tiny::shade(renderer, {&request, 1}, {&result, 1});
         return result;
     }
-    /// Samples that take about the time of so many of `path`. In the tests' rooms they leave up to
-    /// 1.5 times its noise.
+    /// Samples that take the time of so many of `path`, or less. In the tests' rooms they leave up
+    /// to twice its noise.
     std::uint32_t worth(std::uint32_t samples_of_path) const {
         return by == Truth::path ? samples_of_path : samples_of_path / 4;
     }
@@ -76,15 +121,9 @@ struct Meter {
 
     std::vector<ShadeResult> shade(const std::vector<ShadeRequest>& requests, int threads = 1) {
         std::vector<ShadeResult> results(requests.size());
-        renderer(&open_sides, threads)->shade(requests, results);
+        const auto renderer = make_renderer(by, scene, caster, area_lights, &open_sides, threads);
+        tiny::shade(*renderer, requests, results);
         return results;
-    }
-
-    std::unique_ptr<SampleRenderer> renderer(const OpenSides* sides, int threads) const {
-        if (by == Truth::bidirectional)
-            return std::make_unique<BidirectionalRenderer>(scene, caster, area_lights, sides,
-                                                           threads);
-        return std::make_unique<PathRenderer>(scene, caster, area_lights, sides, threads);
     }
 };
 

@@ -13,6 +13,9 @@ namespace {
 using tiny::Meter;
 using tiny::Truth;
 
+// `gather` remembers what it was asked before: its promise is tested in gather_test.cpp.
+constexpr Truth kForgetful[] = {Truth::path, Truth::bidirectional, Truth::caustic};
+
 std::vector<ShadeRequest> many_requests(const Meter& meter, std::size_t count) {
     std::vector<ShadeRequest> requests;
     Rng rng(1);
@@ -61,14 +64,14 @@ void expect_same_bits_anyhow(Meter& meter) {
 }
 
 TEST(Reproducible, AnyThreadsAnyBatch) {
-    for (const Truth by : tiny::kTruths) {
+    for (const Truth by : kForgetful) {
         Meter meter(tiny::cornell_box(), by);
         expect_same_bits_anyhow(meter);
     }
 }
 
-// With lights of every kind, more of them than are asked one by one, and panes in their way.
-TEST(Reproducible, AnyThreadsAnyBatchWithLightsAndPanes) {
+// Lights of every kind, more of them than are asked one by one, and panes in their way.
+Scene lights_and_panes() {
     Scene scene = tiny::cornell_box();
     Rng rng(2);
     for (int i = 0; i < 40; ++i) {
@@ -84,15 +87,32 @@ TEST(Reproducible, AnyThreadsAnyBatchWithLightsAndPanes) {
         scene.materials[index_of(pane)].double_sided = false;
         tiny::add_quad(scene, {0, 1.3f * float(i), 0.5f}, {5, 0, 0}, {0, 0.3f, 4}, pane);
     }
-    for (const Truth by : tiny::kTruths) {
-        Meter meter(scene, by);
+    return scene;
+}
+
+TEST(Reproducible, AnyThreadsAnyBatchWithLightsAndPanes) {
+    for (const Truth by : kForgetful) {
+        Meter meter(lights_and_panes(), by);
         expect_same_bits_anyhow(meter);
     }
 }
 
+// Direct light is one code: what one renderer says of it all say, to the last bit, and what is true
+// of one's is true of all.
+TEST(Reproducible, DirectLightIsTheSameOfAllRenderers) {
+    Scene scene = lights_and_panes();
+    scene.environment.sky = {1, 2, 3};
+    Meter path(scene);
+    std::vector<ShadeRequest> requests = many_requests(path, 100);
+    for (ShadeRequest& request : requests) request.light = Light::direct;
+    const auto expected = path.shade(requests);
+    for (const Truth by : tiny::kTruths)
+        EXPECT_TRUE(same_bits(expected, Meter(scene, by).shade(requests))) << int(by);
+}
+
 // [0, 32) and [32, 64), averaged, are [0, 64); of `total` both parts continue.
 TEST(Reproducible, SamplesContinue) {
-    for (const Truth by : tiny::kTruths) {
+    for (const Truth by : kForgetful) {
         Meter meter(tiny::cornell_box(), by);
         for (ShadeRequest request : many_requests(meter, 90)) {
             request.first_sample = 0;
