@@ -66,7 +66,7 @@ TEST(FormFactors, CoaxialDiscs) {
 
 // Irradiance at a surface of such a furnace: pi L, of which pi Le is direct. Walks that are joined
 // must not be long, since their cost is the square of that: rho 0.8 in blue too. Standard errors of
-// `path` 0.15 % in red and green, 0.5 % in blue.
+// `path` 0.2 % in red and green, 0.7 % in blue.
 void expect_irradiance(Scene scene, Vec3 inside, Truth by) {
     double blue = 20;
     if (by == Truth::bidirectional) {
@@ -77,13 +77,13 @@ void expect_irradiance(Scene scene, Vec3 inside, Truth by) {
     const Hit hit = meter.look(inside, {0.3f, 0.2f, -1});
     const Vec3 n = hit.front ? hit.normal : -hit.normal;
     const Vec3 p = inside + hit.t * Vec3(0.3f, 0.2f, -1) + 1e-4f * n;
-    const Rgb direct = meter.at(p, n, Light::direct, 1 << 14).mean;
-    const Rgb indirect = meter.at(p, n, Light::indirect, meter.worth(1 << 16)).mean;
+    const Rgb direct = meter.at(p, n, Light::direct, 1 << 12).mean;
+    const Rgb indirect = meter.at(p, n, Light::indirect, meter.worth(1 << 15)).mean;
     EXPECT_NEAR(direct.r / kPi, 1, 0.01);
     const glm::dvec3 total(glm::dvec3(direct + indirect) / double(kPi));
     EXPECT_NEAR(total.r / 2, 1, within(by, 0.01)) << int(by);
     EXPECT_NEAR(total.g / 5, 1, within(by, 0.015)) << int(by);
-    EXPECT_NEAR(total.b / blue, 1, within(by, 0.025)) << int(by);
+    EXPECT_NEAR(total.b / blue, 1, within(by, 0.035)) << int(by);
 }
 
 // All faces shine with Le = 1 and reflect rho, another in each channel: L = 1 / (1 - rho), whatever

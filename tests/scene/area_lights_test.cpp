@@ -2,6 +2,7 @@
 
 #include "base/random.h"
 #include "sample_renderer/tiny_scenes.h"
+#include "scene/chi_squared.h"
 
 #include <gtest/gtest.h>
 
@@ -142,6 +143,46 @@ TEST(AreaLights, ChiSquaredOfSamples) {
     }
     const double dof = double(expected.size()) - 1;
     EXPECT_LT(chi2, dof + 8 * std::sqrt(2 * dof)) << dof;
+}
+
+// Chosen by power, points are even over each light's area too: by halves of quads and, in each half
+// or triangle, in 4 x 4 cells of equal area. False alarm below 1e-6.
+TEST(AreaLights, SamplesByPowerAreEvenOverEachArea) {
+    const Scene scene = lamps();
+    const AreaLights lights(scene);
+    constexpr int kSamples = 100'000;
+    const std::pair<ObjectId, std::uint32_t> all[] = {
+        {ObjectId(0), 0}, {ObjectId(0), 1}, {ObjectId(2), 0}};
+    std::vector<double> counts(3 * 32, 0.0), expected;
+    Rng rng(12);
+    for (int i = 0; i < kSamples; ++i) {
+        const AreaLightSample s =
+            lights.sample_by_power(rng.uniform(), {rng.uniform(), rng.uniform()});
+        const auto [object, primitive, u, v] = s.point;
+        EXPECT_FLOAT_EQ(s.pdf_area, lights.pdf_by_power(object, primitive));
+        const int light = object == ObjectId(2) ? 2 : int(primitive);
+        const bool second = u + v > 1;
+        const Vec2 uv = second ? Vec2(1 - u, 1 - v) : Vec2(u, v);
+        const float sum = uv.x + uv.y;  // its square and the share of v are even over a triangle
+        const int cell = 4 * std::min(3, int(4 * sum * sum)) + std::min(3, int(4 * uv.y / sum));
+        counts[32 * light + 16 * second + cell] += 1;
+    }
+    for (const auto& [object, primitive] : all)
+        for (const float corner : {0.0f, 1.0f}) {
+            const auto at = [&, o = object, p = primitive](float u, float v) {
+                return surface_geometry(scene, {o, p, u, v}).position;
+            };
+            const bool half =
+                scene.mesh_of(scene.objects[index_of(object)]).primitives[primitive].is_quad();
+            const Vec3 at_corner = at(corner, corner);
+            const double area =
+                corner == 1 && !half
+                    ? 0
+                    : 0.5 * glm::length(glm::cross(at(1, 0) - at_corner, at(0, 1) - at_corner));
+            expected.insert(expected.end(), 16,
+                            kSamples * area / 16 * lights.pdf_by_power(object, primitive));
+        }
+    expect_counts(counts, expected, "by power");
 }
 
 // The alpha of an emission texture is no part of it: texels that shine do so at alpha 0 too, and

@@ -1,4 +1,5 @@
-// Whether directions are drawn with the density that their sampler states.
+// Whether things are drawn with the chances, and directions with the density, that their sampler
+// states.
 #pragma once
 
 #include "scene/bsdf_testing.h"
@@ -7,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace chiaro {
@@ -39,9 +41,37 @@ struct SphereCells {
     }
 };
 
+/// Chi^2 of so many cells passes this once in a million sound programs, or less often, however few
+/// they are (Wilson and Hilferty 1931).
+inline double chi_squared_bound(int cells) {
+    const double spread = 2 / (9.0 * cells);
+    return cells * std::pow(1 - spread + 4.9 * std::sqrt(spread), 3);
+}
+
+/// Chi^2 of counts against the numbers that are expected, cell by cell; cells of fewer than 10
+/// expected together. False alarm below 1e-6.
+inline void expect_counts(std::span<const double> counts, std::span<const double> expected,
+                          const std::string& name) {
+    double chi2 = 0, few_counts = 0, few_expected = 0;
+    int cells = 0;
+    const auto add = [&](double count, double mean) {
+        chi2 += (count - mean) * (count - mean) / std::max(mean, 1.0);
+        ++cells;
+    };
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (expected[i] >= 10) {
+            add(counts[i], expected[i]);
+        } else {
+            few_counts += counts[i];
+            few_expected += expected[i];
+        }
+    }
+    add(few_counts, few_expected);
+    EXPECT_LT(chi2, chi_squared_bound(cells)) << name << ", cells " << cells;
+}
+
 /// Chi^2 of directions that `draw` gives (none: one more cell) against `density` over solid angle;
-/// cells of fewer than 10 expected together. The bound is 6 standard deviations, false alarm below
-/// 1e-6. Densities that jump need more `steps` across a cell.
+/// false alarm below 1e-6. Densities that jump need more `steps` across a cell.
 template <typename Density, typename Draw>
 void expect_density(const Density& density, const Draw& draw, const std::string& name,
                     int steps = 32) {
@@ -55,24 +85,8 @@ void expect_density(const Density& density, const Draw& draw, const std::string&
     for (int i = 0; i < kCells; ++i) total += expected[i] = SphereCells::chance(i, density, steps);
     EXPECT_LE(total, 1.001) << name;
     expected[kCells] = std::max(0.0, 1 - total);
-
-    double chi2 = 0, few_counts = 0, few_expected = 0;
-    int cells = 0;
-    const auto add = [&](double count, double mean) {
-        chi2 += (count - mean) * (count - mean) / std::max(mean, 1.0);
-        ++cells;
-    };
-    for (int i = 0; i <= kCells; ++i) {
-        const double mean = expected[i] * kSamples;
-        if (mean >= 10) {
-            add(counts[i], mean);
-        } else {
-            few_counts += counts[i];
-            few_expected += mean;
-        }
-    }
-    add(few_counts, few_expected);
-    EXPECT_LT(chi2, cells + 6 * std::sqrt(2.0 * cells)) << name << ", cells " << cells;
+    for (double& mean : expected) mean *= kSamples;
+    expect_counts(counts, expected, name);
 }
 
 }  // namespace chiaro

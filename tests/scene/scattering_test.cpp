@@ -41,7 +41,7 @@ TEST(Scattering, DirectionsFollowTheirDensity) {
                 if (!found || found->delta()) return std::nullopt;
                 return found->direction;
             };
-            expect_density([&](Vec3 to) { return pdf_scattering(s, to); }, draw, name, 96);
+            expect_density([&](Vec3 to) { return pdf_scattering(s, to); }, draw, name, 48);
         }
     }
 }
