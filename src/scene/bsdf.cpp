@@ -22,25 +22,35 @@ Rgb repeated_reflectance(const Bsdf& b, float mean) {
 
 // What the facets over the base give back of light from white surroundings.
 struct FacetLight {
-    Rgb once;      // after one of them
-    Rgb repeated;  // after several: the broad lobe
+    Rgb once;                        // after one of them
+    Rgb repeated;                    // after several: the broad lobe
+    Rgb absorbed_by_metal = Rgb(0);  // of what falls on metal, where some of the surface is
 
     Rgb total() const { return once + repeated; }
 };
 
 FacetLight facet_light(const Bsdf& b, const MirrorAlbedo& albedo) {
-    return {b.f0 * albedo.full + (b.f90 - b.f0) * albedo.schlick,
-            repeated_reflectance(b, albedo.mean) * (1 - albedo.full)};
+    FacetLight light = {b.f0 * albedo.full + (b.f90 - b.f0) * albedo.schlick,
+                        repeated_reflectance(b, albedo.mean) * (1 - albedo.full)};
+    if (b.metal > 0 && has_diffuse(b)) {
+        const Bsdf metal = {.f0 = b.diffuse / (1 - b.metal), .f90 = Rgb(1)};
+        light.absorbed_by_metal = 1.0f - facet_light(metal, albedo).total();
+    }
+    return light;
 }
 
 FacetLight facet_light(const Bsdf& b, float cosine) {
     if (!has_facets(b)) return {Rgb(0), Rgb(0)};
-    if (b.smooth()) return {facet_reflectance(b, cosine), Rgb(0)};
+    if (b.smooth()) return facet_light(b, {1, schlick_weight(cosine), 1});
     return facet_light(b, mirror_albedo(b.alpha, cosine));
 }
 
+// The base gets what the facets over it leave: of what they do not give back of all light, all but
+// what the metal beside it absorbs.
 Rgb base_albedo(const Bsdf& b, const FacetLight& facets) {
-    return b.diffuse * glm::max(1.0f - facets.total(), Rgb(0));
+    const Rgb left = 1.0f - facets.total() - b.metal * facets.absorbed_by_metal;
+    const Rgb color = b.metal < 1 ? b.diffuse / (1 - b.metal) : Rgb(0);
+    return color * glm::max(left, Rgb(0));
 }
 
 // All but glass; both directions have z > 0.

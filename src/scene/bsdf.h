@@ -24,7 +24,8 @@ inline constexpr float kSmoothRoughness = 0.03f;
 inline constexpr float kCachedFacets = 0.3f * 0.3f;
 
 struct Bsdf {
-    Rgb diffuse = Rgb(0);  // albedo of the base, in [0, 1]
+    Rgb diffuse = Rgb(0);  // albedo of the base, in [0, 1], times the part that is no metal
+    float metal = 0;       // that part of what is no glass, [0, 1]: facets and no base
     Rgb f0 = Rgb(0);       // reflectance of the facets at normal incidence, in [0, f90]
     Rgb f90 = Rgb(0);      // and at grazing incidence, in [0, 1]; black: no facets
     float alpha = 0;       // width of the distribution of facets, [0.03^2, 1]; 0: smooth

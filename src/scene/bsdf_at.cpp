@@ -49,11 +49,12 @@ Bsdf from_metallic_roughness(const Gloss& gloss, Rgb color, Vec2 factors, bool f
     if (b.glass == 1) return b;
 
     // The rest: metal, and a base under clear facets.
-    const float metal = metallic / (1 - b.glass);
+    const float metal = std::min(metallic / (1 - b.glass), 1.0f);
     const float factor = std::clamp(gloss.specular_factor, 0.0f, 1.0f);
     const Rgb clear =
         glm::clamp(normal_reflectance(gloss.ior) * gloss.specular_color, 0.0f, 1.0f) * factor;
     b.diffuse = (1 - metal) * color;
+    b.metal = metal;
     b.f0 = glm::mix(clear, color, metal);
     b.f90 = Rgb(glm::mix(factor, 1.0f, metal));
     return b;

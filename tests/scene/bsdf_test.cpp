@@ -57,6 +57,34 @@ TEST(Bsdf, AMixtureOfWhitesIsWhite) {
     }
 }
 
+// Base, facets over it and facets of metal, as glTF mixes them.
+Bsdf partly_metal(float roughness, float metallic, Rgb color) {
+    Bsdf b = plastic(roughness, (1 - metallic) * color, glm::mix(Rgb(0.04f), color, metallic));
+    b.metal = metallic;
+    return b;
+}
+
+TEST(Bsdf, WhiteThatIsPartlyMetalIsWhite) {
+    for (const float roughness : kRoughnesses)
+        for (const float metallic : {0.2f, 0.9f})
+            expect_white(partly_metal(roughness, metallic, Rgb(1)), "partly metal");
+}
+
+// What is half metal and half paint gives back half of what each does: exactly of smooth facets, on
+// rough ones but for light that met facets of both.
+TEST(Bsdf, PartlyMetalIsTheMixtureOfBoth) {
+    const Rgb color(0.9f, 0.5f, 0.1f);
+    for (const float roughness : {0.0f, 0.5f, 1.0f})
+        for (const float cosine : kCosines) {
+            const Bsdf mixed = partly_metal(roughness, 0.5f, color);
+            const Rgb paint = total_albedo(plastic(roughness, color), cosine);
+            const Rgb alone = total_albedo(metal(roughness, color), cosine);
+            const Rgb difference = total_albedo(mixed, cosine) - 0.5f * (paint + alone);
+            EXPECT_LE(max_component(glm::abs(difference)), roughness == 0 ? 1e-6f : 0.02f)
+                << roughness << " " << cosine;
+        }
+}
+
 // Facets are reciprocal: of the particles that a lamp sends, as many leave as come.
 TEST(Bsdf, ClearSurfacesLoseNoParticles) {
     for (const float roughness : {0.0f, 0.3f, 1.0f})
@@ -75,6 +103,7 @@ TEST(Bsdf, NothingGivesBackMoreThanItGets) {
         Bsdf b = plastic(rng.uniform(), rgb());
         b.f90 = rgb();
         b.f0 = b.f90 * rng.uniform();
+        if (i % 5 == 0) b = partly_metal(rng.uniform(), rng.uniform(), rgb());
         b.tint = rgb();
         b.glass = i % 3 == 0 ? 0.0f : rng.uniform();
         b.thin = i % 2 == 0;
