@@ -44,7 +44,7 @@ inline ObjectId add_white_box(Scene& scene, const White& white) {
     const MaterialId material = add_glossy(scene, Rgb(1), white.gloss);
     Mesh mesh = box_mesh(Vec3(-1), Vec3(1), material, false);
     for (const Vec3& p : mesh.positions)
-        mesh.uvs[0].push_back({p.x + 0.3f * p.z, p.y - 0.2f * p.z});
+        mesh.uvs[0].push_back(0.25f * Vec2(p.x + 0.3f * p.z, p.y - 0.2f * p.z));
     if (white.textured) {
         Texture texture;
         texture.srgb = false;

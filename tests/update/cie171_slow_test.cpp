@@ -121,7 +121,7 @@ TEST_P(Interreflection, Mean) {
 // cells were filled from each other; they are filled by traced paths.
 TEST(Cie171, InterreflectionGathered) {
     for (const float rho : {0.5f, 0.8f, 0.9f}) {
-        Studio studio(cube(rho), fixed_size(Scheme::best), tiny::Rendering::gather);
+        Studio studio(cube(rho), fixed_size(Scheme::best), tiny::Truth::gather);
         const SquareView view = down_on(Vec3(0), 2, 80, 20);
         studio.cycle.look_from(view.view());
         studio.run(40);

@@ -65,7 +65,7 @@ TEST(Convergence, CornellComesToTheReference) {
 TEST(Convergence, GatherComesToTheReference) {
     const Scene scene = make_cornell_box();
     const View view(scene.cameras.front(), 160, 120);
-    Studio gather(scene, fixed_size(Scheme::best, Aov::radiance), tiny::Rendering::gather);
+    Studio gather(scene, fixed_size(Scheme::best, Aov::radiance), tiny::Truth::gather);
     Studio path(scene, fixed_size(Scheme::best, Aov::radiance));
     const Reference reference(gather, view, 96);
     gather.cycle.look_from(view);

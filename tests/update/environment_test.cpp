@@ -4,19 +4,19 @@
 namespace chiaro {
 namespace {
 
-using tiny::Rendering;
 using tiny::Studio;
+using tiny::Truth;
 
-// What absorbs nothing cannot be seen in an even sky: a picture of two white boxes is even, by path
-// and by gather. Noise leaves no pixel more than 0.06 and the mean 0.01 off.
+// What absorbs nothing cannot be seen in an even sky: a picture of two white boxes is even, by
+// every renderer. Noise leaves no pixel more than 0.06 and the mean 0.01 off.
 TEST(Environment, WhiteBoxesVanishInAnEvenSky) {
-    for (const Rendering rendering : {Rendering::path, Rendering::gather}) {
+    for (const Truth by : tiny::kTruths) {
         Scene scene;
         scene.environment.sky = {1, 2, 0};
         const MaterialId white = tiny::add_material(scene, Rgb(1));
         tiny::add_box(scene, Vec3(-1), Vec3(1), white);
         tiny::add_box(scene, {-1, 1.5f, -1}, {0, 2, 1}, white);
-        Studio studio(std::move(scene), tiny::fixed_size(Scheme::best, Aov::radiance), rendering);
+        Studio studio(std::move(scene), tiny::fixed_size(Scheme::best, Aov::radiance), by);
         studio.cycle.look_from(View({.eye = {3, 4, 5}, .target = {0, 0.5f, 0}}, 48, 36));
         studio.run(20);
         const Image picture = studio.cycle.picture();

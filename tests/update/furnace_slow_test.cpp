@@ -1,5 +1,6 @@
 // A closed room that shines with Le = 1 everywhere: every pixel shows L = 1 / (1 - rho), whatever
 // the room's shape. A cap on bounces, a leak or a mixed-up channel would show.
+#include "sample_renderer/whites.h"
 #include "update/studio.h"
 
 namespace chiaro {
@@ -55,6 +56,32 @@ TEST(Furnace, RoomWithABox) {
 }
 TEST(Furnace, EmptyRoomByThePaper) {
     expect_furnace(furnace(Scheme::paper, false, 6), 0.08);
+}
+
+// What absorbs nothing cannot be seen in a closed room of one radiance either, half of which its
+// walls emit. Noise leaves no pixel more than 0.35 and the mean 0.01 off; `gather` may add its
+// bias.
+TEST(Furnace, WhateverAbsorbsNothingVanishesInAClosedRoom) {
+    for (const tiny::White& white : tiny::kWhites)
+        for (const tiny::Truth by : {tiny::Truth::path, tiny::Truth::gather}) {
+            Scene scene;
+            tiny::add_room(scene, Vec3(-3), Vec3(3),
+                           tiny::add_material(scene, Rgb(0.5f), {0.5f, 1, 0}));
+            tiny::add_white_box(scene, white);
+            Studio studio(std::move(scene), fixed_size(Scheme::best, Aov::radiance), by);
+            studio.cycle.look_from(
+                View({.eye = {2.5f, 2.6f, 2.7f}, .target = {0, 0, 0}, .vertical_fov = 60}, 32, 24));
+            studio.run(5);
+            const Image picture = studio.cycle.picture();
+            float worst = 0;
+            for (const Rgb& p : picture.pixels) {
+                worst = std::max({worst, std::abs(p.r - 1), std::abs(p.g / 2 - 1)});
+                EXPECT_EQ(p.b, 0);
+            }
+            EXPECT_LT(worst, 0.35f) << white.name << " " << int(by);
+            const double mean = tiny::mean_of(picture).r;
+            EXPECT_NEAR(mean, 1, within(by, 0.01)) << white.name << " " << int(by);
+        }
 }
 
 }  // namespace

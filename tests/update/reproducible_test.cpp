@@ -8,15 +8,14 @@ namespace {
 using tiny::fixed_size;
 using tiny::Studio;
 
-Image picture(Scheme scheme, int threads, std::uint64_t seed,
-              tiny::Rendering rendering = tiny::Rendering::path) {
+Image picture(Scheme scheme, int threads, std::uint64_t seed, tiny::Truth by = tiny::Truth::path) {
     UpdateSettings settings = fixed_size(scheme, Aov::radiance);
     settings.threads = threads;
     settings.seed = seed;
     settings.direct_samples = settings.indirect_samples = 16;
     Scene scene = make_cornell_box();
     const Camera camera = scene.cameras.front();
-    Studio studio(std::move(scene), settings, rendering);
+    Studio studio(std::move(scene), settings, by);
     studio.cycle.look_from({camera, 64, 48});
     studio.run(6);
     return studio.cycle.picture();
@@ -32,8 +31,8 @@ TEST_P(Reproducible, TheSameBitsOnAnyNumberOfThreads) {
 
 // So it is where rays end in cells, which threads fill.
 TEST(GatherReproducible, TheSameBitsOnAnyNumberOfThreads) {
-    const Image one = picture(Scheme::best, 1, 5, tiny::Rendering::gather);
-    EXPECT_EQ(one.pixels, picture(Scheme::best, 3, 5, tiny::Rendering::gather).pixels);
+    const Image one = picture(Scheme::best, 1, 5, tiny::Truth::gather);
+    EXPECT_EQ(one.pixels, picture(Scheme::best, 3, 5, tiny::Truth::gather).pixels);
 }
 
 // Another seed draws other samples: nearly no pixel has the same bits.

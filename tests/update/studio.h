@@ -1,9 +1,8 @@
 // A scene with an update cycle on it, and light read off the picture where it is known.
 #pragma once
 
-#include "sample_renderer/gather_renderer.h"
-#include "sample_renderer/path_renderer.h"
 #include "sample_renderer/tiny_scenes.h"
+#include "sample_renderer/truths.h"
 #include "update/update_cycle.h"
 
 #include <gtest/gtest.h>
@@ -28,18 +27,6 @@ inline std::string scheme_name(const testing::TestParamInfo<Scheme>& which) {
     return which.param == Scheme::best ? "best" : "paper";
 }
 
-/// Which sample renderer a studio has.
-enum class Rendering { path, gather };
-
-inline std::unique_ptr<SampleRenderer> make_renderer(Rendering which, const Scene& scene,
-                                                     const RayCaster& rays,
-                                                     const AreaLights& area_lights,
-                                                     const OpenSides& open_sides, int threads) {
-    if (which == Rendering::gather)
-        return std::make_unique<GatherRenderer>(scene, rays, area_lights, &open_sides, threads);
-    return std::make_unique<PathRenderer>(scene, rays, area_lights, &open_sides, threads);
-}
-
 /// All that an update cycle needs, in the order in which it is made.
 struct Studio {
     Scene scene;
@@ -49,13 +36,12 @@ struct Studio {
     std::unique_ptr<SampleRenderer> renderer;
     UpdateCycle cycle;
 
-    Studio(Scene s, const UpdateSettings& settings, Rendering rendering = Rendering::path)
+    Studio(Scene s, const UpdateSettings& settings, Truth by = Truth::path)
         : scene(std::move(s)),
           rays(scene, settings.threads),
           area_lights(scene),
           open_sides(scene),
-          renderer(
-              make_renderer(rendering, scene, rays, area_lights, open_sides, settings.threads)),
+          renderer(make_renderer(by, scene, rays, area_lights, &open_sides, settings.threads)),
           cycle(rays, *renderer, open_sides, settings) {}
     Studio(const Studio&) = delete;
     Studio& operator=(const Studio&) = delete;
