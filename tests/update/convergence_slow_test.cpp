@@ -34,8 +34,18 @@ double cost(const Studio& studio, Scheme scheme) {
     return double(samples[0]) * (100 + 8 * 400) / 500;
 }
 
-// PSNR rises from the first picture on and passes 40 dB; and for the same cost in samples the best
-// scheme beats the paper's, by 1.5 dB and more.
+// That cost when the picture first passes so many decibel; infinite if it does not in 500 cycles.
+double cost_of(double psnr, Studio& studio, Scheme scheme, const Reference& reference) {
+    for (int i = 0; i < 500; ++i) {
+        if (reference.psnr(studio.cycle.picture()) > psnr) return cost(studio, scheme);
+        studio.cycle.run();
+    }
+    return INFINITY;
+}
+
+// The picture comes to the reference, as near as 44 dB in 50 000 points, where three seeds took up
+// to 32 000; and for 40 and 42 dB the paper's scheme takes at least three times the samples: 4.7 to
+// 6.9 times over these seeds.
 TEST(Convergence, CornellComesToTheReference) {
     const Scene scene = make_cornell_box();
     const View view(scene.cameras.front(), 160, 120);
@@ -44,20 +54,18 @@ TEST(Convergence, CornellComesToTheReference) {
     const Reference reference(best, view, 96);
     best.cycle.look_from(view);
     paper.cycle.look_from(view);
-    double last = 0;
-    for (const std::size_t points : {1u, 8'000u, 30'000u}) {
-        best.run_to_points(points);
-        const double psnr = reference.psnr(best.cycle.picture());
-        EXPECT_GT(psnr, last + 1) << points;
-        last = psnr;
-        RecordProperty("best_" + std::to_string(points), std::to_string(psnr));
-        while (points > 1 && cost(paper, Scheme::paper) < cost(best, Scheme::best)) paper.run(1);
-        if (points == 1) continue;
-        const double of_paper = reference.psnr(paper.cycle.picture());
-        RecordProperty("paper_" + std::to_string(points), std::to_string(of_paper));
-        EXPECT_GT(psnr, of_paper + 1.5) << points;
+    best.cycle.run();
+    paper.cycle.run();
+    EXPECT_GT(reference.psnr(best.cycle.picture()), 25);
+    for (const double psnr : {40, 42}) {
+        const double of_best = cost_of(psnr, best, Scheme::best, reference);
+        const double of_paper = cost_of(psnr, paper, Scheme::paper, reference);
+        RecordProperty("times_" + std::to_string(int(psnr)), std::to_string(of_paper / of_best));
+        EXPECT_GT(of_paper, 3 * of_best) << psnr;
+        EXPECT_LT(of_paper, INFINITY) << psnr;
     }
-    EXPECT_GT(last, 40);
+    EXPECT_LT(cost_of(44, best, Scheme::best, reference), INFINITY);
+    EXPECT_LT(best.points(), 50'000u);
 }
 
 // With rays that end in cells the picture comes to the same truth, within their bias, and for the
