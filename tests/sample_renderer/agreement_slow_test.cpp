@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kRuns = 8;
 constexpr int kAcross = 12;  // places that the picture shows, by a grid of 12 x 9
-constexpr double kGatherBias = 0.015;
 
 struct Setting {
     const char* scene;
