@@ -6,9 +6,9 @@
 //
 // Places are what rays through a grid of the picture's pixels meet. Errors are relative to the
 // truth there, two halves of many traced paths (or of --truth, a renderer's name) whose own noise
-// cancels in the product. Time is the processor's, of all threads, and with `gather` holds the
-// filling of its cells: each run starts without any, or with those that --before N samples a place
-// leave. --truth-file F keeps the truth for other runs of the same view.
+// cancels in the product. Time is the processor's, of all threads, making the renderer included,
+// and with `gather` the filling of its cells: each run starts without any, or with those that
+// --before N samples a place leave. --truth-file F keeps the truth for other runs of the same view.
 
 #include "apps/make_renderer.h"
 #include "apps/open_scene.h"
@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
@@ -59,9 +60,9 @@ struct Stage {
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    std::unique_ptr<SampleRenderer> renderer(const std::string& name) const {
+    std::unique_ptr<SampleRenderer> renderer(const std::string& name, std::uint32_t seed) const {
         return make_renderer(parse_renderer(name, RendererName::path), scene, rays, area_lights,
-                             nullptr, threads);
+                             nullptr, threads, seed);
     }
 };
 
@@ -132,33 +133,43 @@ std::array<std::vector<double>, 2> truth_of(SampleRenderer& renderer,
 }
 
 struct Figures {
-    double error = 0;  // mean over places of the squared error over the truth's square
-    double bias = 0;   // mean error over mean truth
+    double error = 0;            // mean over places of the squared error over the truth's square
+    double error_deviation = 0;  // standard error of that, by runs
+    double bias = 0;             // mean error over mean truth
     double seconds = 0;
 };
 
+// Renderers have seeds of their own, so that they are independent witnesses.
 Figures measure(const Stage& stage, const std::string& name,
-                const std::vector<ShadeRequest>& requests, const std::vector<double>& half_1,
-                const std::vector<double>& half_2, const Settings& settings) {
+                const std::vector<ShadeRequest>& requests,
+                const std::array<std::vector<double>, 2>& halves, const Settings& settings) {
     Figures figures;
-    double sum = 0, truth = 0;
+    double sum = 0, truth = 0, squares = 0;
     for (int run = 0; run < settings.runs; ++run) {
-        const auto renderer = stage.renderer(name);
-        if (settings.before > 0)
-            shade(*renderer, requests, settings.before, 77 + static_cast<std::uint32_t>(run));
-        const double start = processor_seconds();
-        const std::vector<double> lux =
-            shade(*renderer, requests, settings.samples, 1000 + static_cast<std::uint32_t>(run));
+        std::uint32_t seed = hash32(1000 + static_cast<std::uint32_t>(run));
+        for (const char c : name) seed = hash32(seed, static_cast<std::uint32_t>(c));
+        double start = processor_seconds();
+        const auto renderer = stage.renderer(name, seed);
+        if (settings.before > 0) {
+            shade(*renderer, requests, settings.before, hash32(seed));
+            start = processor_seconds();
+        }
+        const std::vector<double> lux = shade(*renderer, requests, settings.samples, seed);
         figures.seconds += (processor_seconds() - start) / settings.runs;
+        double error = 0;
         for (std::size_t i = 0; i < lux.size(); ++i) {
-            const double mean = 0.5 * (half_1[i] + half_2[i]);
+            const double mean = 0.5 * (halves[0][i] + halves[1][i]);
             if (!(mean > 0)) continue;
-            figures.error += (lux[i] - half_1[i]) * (lux[i] - half_2[i]) / (mean * mean);
+            error += (lux[i] - halves[0][i]) * (lux[i] - halves[1][i]) / (mean * mean) /
+                     double(requests.size());
             sum += lux[i];
             truth += mean;
         }
+        figures.error += error / settings.runs;
+        squares += error * error / settings.runs;
     }
-    figures.error /= double(settings.runs) * double(requests.size());
+    figures.error_deviation = std::sqrt(std::max(squares - figures.error * figures.error, 0.0) /
+                                        std::max(settings.runs - 1, 1));
     figures.bias = sum / truth - 1;
     return figures;
 }
@@ -199,18 +210,19 @@ int run_efficiency(int argc, char** argv) {
     const PictureSize size = parse_size(options.size);
     const View view(choose_camera(stage.scene, options), size.width, size.height);
     const auto requests = places(stage, view, settings);
-    const auto truth = stage.renderer(settings.truth);
-    const auto [half_1, half_2] = truth_of(*truth, requests, settings);
+    const auto truth = stage.renderer(settings.truth, 0);
+    const auto halves = truth_of(*truth, requests, settings);
 
     fmt::print("{{\"scene\": \"{}\", \"places\": {}, \"samples\": {}, \"renderers\": {{",
                options.scene, requests.size(), settings.samples);
     const char* comma = "";
     for (const std::string& name : split(renderers)) {
-        const Figures f = measure(stage, name, requests, half_1, half_2, settings);
+        const Figures f = measure(stage, name, requests, halves, settings);
         fmt::print(
-            "{}\n  \"{}\": {{\"relative_mse\": {:.3e}, \"bias\": {:.4f}, \"seconds\": {:.4f}, "
+            "{}\n  \"{}\": {{\"relative_mse\": {:.3e}, \"relative_mse_deviation\": {:.1e}, "
+            "\"bias\": {:.4f}, \"seconds\": {:.4f}, "
             "\"efficiency\": {:.4g}}}",
-            comma, name, f.error, f.bias, f.seconds, 1 / (f.error * f.seconds));
+            comma, name, f.error, f.error_deviation, f.bias, f.seconds, 1 / (f.error * f.seconds));
         comma = ",";
     }
     fmt::print("\n}}}}\n");

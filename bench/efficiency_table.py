@@ -11,6 +11,7 @@ KINDS = {  # in the table's order
     "direct": "lit directly (Cornell box, all light)",
     "indirect": "mostly indirect (lamp in a box)",
     "caustic": "caustic (glossy ring)",
+    "furnished_few": "furnished room",
     "furnished": "furnished room",
 }
 
@@ -27,7 +28,7 @@ def table(folder):
         words += f", {measured['places']} x {measured['samples']}"
         for name, row in renderers.items():
             ratio = row["efficiency"] / renderers["path"]["efficiency"]
-            lines.append(f"| {words} | {name} | {row['relative_mse']:.2e} | {100 * row['bias']:+.1f} % |"
+            lines.append(f"| {words} | {name} | {row['relative_mse']:.2e} ± {row['relative_mse_deviation']:.0e} | {100 * row['bias']:+.1f} % |"
                          f" {row['seconds']:.2f} | **{ratio:.2f}** |")
     return "\n".join(lines)
 

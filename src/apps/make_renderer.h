@@ -10,9 +10,11 @@
 
 namespace chiaro {
 
-/// Keeps references to all of them. `open_sides` may be null: nothing is buried then.
+/// Keeps references to all of them. `open_sides` may be null: nothing is buried then. `seed` is of
+/// random numbers that belong to no request.
 std::unique_ptr<SampleRenderer> make_renderer(RendererName name, const Scene& scene,
                                               const RayCaster& rays, const AreaLights& area_lights,
-                                              const OpenSides* open_sides, int threads);
+                                              const OpenSides* open_sides, int threads,
+                                              std::uint32_t seed = 0);
 
 }  // namespace chiaro

@@ -175,7 +175,8 @@ int trace_command(const Options& options) {
     const RayCaster rays(scene, effort.threads);
     const AreaLights area_lights(scene);
     const LitScene lit = make_lit_scene(scene, rays, area_lights);
-    const auto renderer = make_renderer(name, scene, rays, area_lights, nullptr, effort.threads);
+    const auto renderer = make_renderer(name, scene, rays, area_lights, nullptr, effort.threads,
+                                        short_seed(options.seed));
 
     std::vector<Line> lines;
     InputLines input;

@@ -4,6 +4,7 @@
 #include "base/random.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace chiaro {
@@ -32,6 +33,11 @@ std::uint64_t facing(Vec3 n) {
     return static_cast<std::uint64_t>(2 * axis + (n[axis] < 0 ? 1 : 0));
 }
 
+// The power of two just below a normal number above 0; std::ilogb() is a call.
+int exponent_of(float x) {
+    return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23) - 127;
+}
+
 }  // namespace
 
 float CellGrid::shortest() const {
@@ -45,15 +51,14 @@ CellGrid make_cell_grid(const Box& scene) {
 
 std::optional<int> level_of(const CellGrid& grid, float distance) {
     if (!(distance >= grid.shortest())) return std::nullopt;
-    const int halvings = std::ilogb(kLengthOverSize * grid.size / distance) + 1;
+    const int halvings = exponent_of(kLengthOverSize * grid.size / distance) + 1;
     return std::clamp(halvings, 0, CellGrid::kLevels - 1);
 }
 
 CellKey cell_at(const CellGrid& grid, const CellVisit& visit, int level) {
-    const float size = std::ldexp(grid.size, -level);
     const Vec3 shift = visit.jitter - 0.5f;
     const Vec3 along = shift - glm::dot(shift, visit.normal) * visit.normal;
-    const Vec3 place = (visit.position - grid.origin) / size + along;
+    const Vec3 place = grid.cells_a_unit(level) * (visit.position - grid.origin) + along;
     constexpr float kLast = (1 << kBitsAnAxis) - 1;
     std::uint64_t key = index_of(visit.object) & ((1 << kObjectBits) - 1);
     key = key << 3 | facing(visit.normal + kTilt * Vec3(shift.y, shift.z, shift.x));
@@ -68,7 +73,8 @@ void CellSamples::add(Rgb irradiance) {
     ++samples;
     const float before = luminance(mean);
     mean += (irradiance - mean) / static_cast<float>(samples);
-    deviations += (luminance(irradiance) - before) * (luminance(irradiance) - luminance(mean));
+    deviations +=
+        double(luminance(irradiance) - before) * (luminance(irradiance) - luminance(mean));
 }
 
 std::size_t IrradianceCells::slot_of(CellKey key) const {
@@ -83,7 +89,7 @@ CellId IrradianceCells::find(CellKey key) const {
 CellId IrradianceCells::find_or_add(CellKey key) {
     if (2 * (cells_.size() + 1) > slots_.size()) grow();
     Slot& slot = slots_[slot_of(key)];
-    if (slot.id != CellId::none) return slot.id;
+    if (slot.id != CellId::none || cells_.size() == kMostCells) return slot.id;
     slot = {key, static_cast<CellId>(cells_.size())};
     cells_.push_back({});
     cells_.back().key = key;
@@ -107,10 +113,10 @@ void IrradianceCells::store(CellId id, const CellSamples& added) {
         c.version = version_;
     }
     // Two sets' deviations add, with those between their means (Chan et al. 1979).
-    const auto before = static_cast<float>(c.samples), more = static_cast<float>(added.samples);
-    const float apart = luminance(added.mean) - luminance(c.mean);
+    const double before = c.samples, more = added.samples;
+    const double apart = luminance(added.mean) - luminance(c.mean);
     c.deviations += added.deviations + apart * apart * before * more / (before + more);
-    c.mean += (added.mean - c.mean) * (more / (before + more));
+    c.mean += (added.mean - c.mean) * static_cast<float>(more / (before + more));
     c.samples += added.samples;
 }
 

@@ -24,9 +24,11 @@ enum class CellId : std::uint32_t { none = 0xffff'ffff };
 struct CellGrid {
     static constexpr int kLevels = 8;
 
-    Vec3 origin = Vec3(0);  // a corner of the scene [scene units]
+    Vec3 origin = Vec3(0);  // its lowest corner, somewhat outside of the scene [scene units]
     float size = 1;         // of the largest cells; others are size / 2^level, level < kLevels
 
+    /// Cells of a level on a unit of length.
+    float cells_a_unit(int level) const { return static_cast<float>(1 << level) / size; }
     /// Shortest ray that may end in a cell; shorter ones are to be traced on.
     float shortest() const;
 };
@@ -47,29 +49,26 @@ struct CellVisit {
                   // the normal a little, so that the mean of many interpolates between cells
 };
 /// The cell of a level there. Objects have cells of their own: a curtain's light is not that of the
-/// wall behind it.
+/// wall behind it. (Of more than 8192, some that touch may share.)
 CellKey cell_at(const CellGrid& grid, const CellVisit& visit, int level);
 
 /// What is known of a cell.
 struct IrradianceCell {
     CellKey key{};
-    Rgb mean = Rgb(0);     // irradiance, from lights and from elsewhere [lux a channel]
-    float deviations = 0;  // sum of squared deviations of samples' luminance [lux^2]
+    Rgb mean = Rgb(0);      // irradiance, from lights and from elsewhere [lux a channel]
+    float hits = 0;         // rays that ended here
+    double deviations = 0;  // sum of squared deviations of samples' luminance [lux^2]
     std::uint32_t samples = 0;
-    float hits = 0;             // rays that ended here
     std::uint32_t version = 0;  // of the scene that was sampled
 
     /// Of the mean's luminance [lux^2]. Needs two samples.
-    float variance() const {
-        const auto n = static_cast<float>(samples);
-        return deviations / (n * (n - 1));
-    }
+    double variance() const { return deviations / (double(samples) * (double(samples) - 1)); }
 };
 
 /// Some samples of a cell's irradiance together.
 struct CellSamples {
     Rgb mean = Rgb(0);
-    float deviations = 0;
+    double deviations = 0;
     std::uint32_t samples = 0;
 
     void add(Rgb irradiance);
@@ -80,6 +79,8 @@ struct CellSamples {
 /// Thread: find() and cell() from any number at once, while nobody calls the others.
 class IrradianceCells {
 public:
+    static constexpr std::size_t kMostCells = 1 << 22;  // about 100 bytes each
+
     explicit IrradianceCells(const CellGrid& grid) : grid_(grid), slots_(1024) {}
 
     const CellGrid& grid() const { return grid_; }
@@ -90,7 +91,7 @@ public:
     /// Bring what find() or cell() will read nearer; they are far away in large tables.
     void prefetch(CellKey key) const { __builtin_prefetch(&slots_[first_slot(key)]); }
     void prefetch(CellId id) const { __builtin_prefetch(&cells_[index_of(id)]); }
-    /// The cell of a key, made empty if there is none.
+    /// The cell of a key, made empty if there is none; none if there are kMostCells.
     CellId find_or_add(CellKey key);
     void count_hits(CellId id, float hits) { cells_[index_of(id)].hits += hits; }
     /// Merges samples of the scene as it is; older ones make way (design, section 5). Checks:

@@ -15,7 +15,7 @@ float pdf_aimed(const SampledSurfaces& surfaces, const LitPlace& place, Vec3 dir
 
 void add_aimed_ray(const Aims& aims, const Receiver& receiver, const Sequence& sequence,
                    std::uint32_t sample, std::uint32_t slot, PathWave& wave,
-                   std::vector<SurfacePoint>& targets) {
+                   std::vector<Target>& targets) {
     const std::uint32_t replicate = sample % kReplicates, index = sample / kReplicates;
     const auto found =
         aims.surfaces.sample(lit_place(receiver), sequence.number(sample, kFirstLightChoice),
@@ -26,20 +26,26 @@ void add_aimed_ray(const Aims& aims, const Receiver& receiver, const Sequence& s
     if (!(squared > 0)) return;
     const Vec3 direction = between / std::sqrt(squared);
     if (!(receiving_cosine(receiver, direction) > 0)) return;
+    // The numbers that chose the target choose nothing at it: one number for two factors of a
+    // product would see but the diagonal of their square.
     Path path = make_path(sequence, sample, slot);
     path.key = hash32(path.key, kAimedSalt);
+    path.light_choice = BounceNumbers(path.key, kAimedSalt).next();
+    path.light_place = path.sky_place;
     wave.add({receiver.origin, direction}, path);
-    targets.push_back(found->point);
+    targets.push_back({found->point, std::sqrt(squared)});
 }
 
-bool is_on(const Hit& hit, const SurfacePoint& surface) {
-    return hit && hit.point.object == surface.object && hit.point.primitive == surface.primitive;
+// A quad that is bent may hide its own far half.
+bool is_reached(const Target& target, const Hit& hit) {
+    return hit.point.object == target.point.object &&
+           hit.point.primitive == target.point.primitive && hit.t > 0.9999f * target.distance;
 }
 
 }  // namespace
 
 void add_aimed_rays(const Aims& aims, std::span<const SampleRun> runs, PathWave& wave,
-                    std::vector<SurfacePoint>& targets) {
+                    std::vector<Target>& targets) {
     targets.clear();
     for (std::size_t r = 0; r < runs.size(); ++r) {
         const auto& [receiver, seed, first, count] = runs[r];
@@ -51,13 +57,13 @@ void add_aimed_rays(const Aims& aims, std::span<const SampleRun> runs, PathWave&
 }
 
 void weigh_aimed_rays(const Aims& aims, std::span<const SampleRun> runs,
-                      std::span<const SurfacePoint> targets, PathWave& wave) {
+                      std::span<const Target> targets, PathWave& wave) {
     const std::size_t by_cosine = wave.paths.size() - targets.size();
     std::size_t left = 0;
     for (std::size_t i = 0; i < wave.paths.size(); ++i) {
         const Hit& hit = wave.hits[i];
         if (!hit) continue;
-        if (i >= by_cosine && !is_on(hit, targets[i - by_cosine])) continue;
+        if (i >= by_cosine && !is_reached(targets[i - by_cosine], hit)) continue;
         const Receiver& receiver = run_of(runs, wave.paths[i].slot).receiver;
         // The throughput of either kind is the cosine / pi over the sum of the densities.
         const Vec3 direction = wave.rays[i].direction;

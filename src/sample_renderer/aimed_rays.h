@@ -15,15 +15,21 @@ struct Aims {
     std::uint32_t every = 1;
 };
 
+/// What a ray is aimed at, and how far that is.
+struct Target {
+    SurfacePoint point;
+    float distance;
+};
+
 /// Adds the aimed rays of all runs to a wave that holds their rays of the cosine distribution.
-/// `targets` gets the point that each is aimed at.
+/// `targets` gets what each is aimed at.
 void add_aimed_rays(const Aims& aims, std::span<const SampleRun> runs, PathWave& wave,
-                    std::vector<SurfacePoint>& targets);
+                    std::vector<Target>& targets);
 
 /// To be called when all first rays are cast. Leaves out what met nothing, and the aimed rays (the
 /// last of the wave) that something else stopped before their target; weights all the rest by the
 /// balance heuristic.
 void weigh_aimed_rays(const Aims& aims, std::span<const SampleRun> runs,
-                      std::span<const SurfacePoint> targets, PathWave& wave);
+                      std::span<const Target> targets, PathWave& wave);
 
 }  // namespace chiaro

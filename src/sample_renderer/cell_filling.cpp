@@ -42,7 +42,7 @@ std::uint32_t units_wanted(float hits) {
 std::vector<Filling> plan(IrradianceCells& cells, std::vector<Asking>& asking) {
     for (Asking& a : asking) {
         a.cell = cells.find_or_add(a.key);
-        cells.count_hits(a.cell, a.rays);
+        if (a.cell != CellId::none) cells.count_hits(a.cell, a.rays);
     }
     std::stable_sort(asking.begin(), asking.end(),
                      [](const Asking& a, const Asking& b) { return a.cell < b.cell; });
@@ -52,6 +52,7 @@ std::vector<Filling> plan(IrradianceCells& cells, std::vector<Asking>& asking) {
         const CellId id = asking[first].cell;
         std::size_t last = first;
         while (last < asking.size() && asking[last].cell == id) ++last;
+        if (id == CellId::none) break;  // the last ones: there was no room
         const std::uint32_t has = cells.known(id) ? cells.cell(id).samples : 0;
         const std::uint32_t wanted = units_wanted(cells.cell(id).hits);
         if (wanted >= std::max(2 * has, kFirstUnits))
@@ -64,11 +65,12 @@ std::vector<Filling> plan(IrradianceCells& cells, std::vector<Asking>& asking) {
 // Every unit of all fillings, in order. A cell's sequence goes on from place to place, so that it
 // is spread well over all.
 std::vector<SampleRun> units_of(const IrradianceCells& cells, std::span<const Filling> fillings,
-                                std::span<const Asking> asking) {
+                                std::span<const Asking> asking, std::uint32_t seed_of_all) {
     std::vector<SampleRun> units;
     for (const Filling& filling : fillings) {
         const IrradianceCell& cell = cells.cell(filling.cell);
-        const std::uint32_t seed = hash64(static_cast<std::uint64_t>(cell.key));
+        const std::uint32_t seed = hash32(
+            static_cast<std::uint32_t>(hash64(static_cast<std::uint64_t>(cell.key))), seed_of_all);
         const std::size_t places = filling.last - filling.first;
         for (std::uint32_t u = 0; u < filling.units; ++u)
             units.push_back({asking[filling.first + (places * u / filling.units) % places].place,
@@ -156,10 +158,10 @@ std::uint32_t find_cells(const IrradianceCells& cells, const Meetings& meetings,
     return lanes;
 }
 
-void fill_cells(const LitScene& lit, const Aims* aims, int threads, IrradianceCells& cells,
-                std::vector<Asking>& asking) {
+void fill_cells(const LitScene& lit, const Aims* aims, int threads, std::uint32_t seed,
+                IrradianceCells& cells, std::vector<Asking>& asking) {
     const std::vector<Filling> fillings = plan(cells, asking);
-    const std::vector<SampleRun> units = units_of(cells, fillings, asking);
+    const std::vector<SampleRun> units = units_of(cells, fillings, asking, seed);
     std::vector<Rgb> irradiance(units.size(), Rgb(0));
     const std::size_t waves = (units.size() + kUnitsAWave - 1) / kUnitsAWave;
     parallel_for(threads, waves, [&](std::size_t wave) {

@@ -27,7 +27,7 @@ struct Asking {
 
 /// Counts what was asked for and gives the cells that have earned them more samples, from the
 /// places that rays met: the same bits on any number of threads. `aims` may be null.
-void fill_cells(const LitScene& lit, const Aims* aims, int threads, IrradianceCells& cells,
-                std::vector<Asking>& asking);
+void fill_cells(const LitScene& lit, const Aims* aims, int threads, std::uint32_t seed,
+                IrradianceCells& cells, std::vector<Asking>& asking);
 
 }  // namespace chiaro

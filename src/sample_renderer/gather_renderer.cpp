@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "sample_renderer/cell_filling.h"
 #include "sample_renderer/shade_tasks.h"
 
 #include <algorithm>
@@ -44,11 +43,11 @@ public:
         shares_[slot] += share;
     }
     // Variance of the sum of shares times the cells' luminance.
-    float variance(const IrradianceCells& cells) const {
-        float sum = 0;
+    double variance(const IrradianceCells& cells) const {
+        double sum = 0;
         for (std::size_t i = 0; i < ids_.size(); ++i)
             if (ids_[i] != CellId::none)
-                sum += shares_[i] * shares_[i] * cells.cell(ids_[i]).variance();
+                sum += double(shares_[i]) * shares_[i] * cells.cell(ids_[i]).variance();
         return sum;
     }
 
@@ -127,15 +126,21 @@ TaskResult gather(const LitScene& lit, IndirectOptions options, const Irradiance
 
 GatherRenderer::GatherRenderer(const Scene& scene, const RayCaster& caster,
                                const AreaLights& area_lights, const OpenSides* open_sides,
-                               int threads)
+                               int threads, std::uint32_t seed)
     : lit_(make_lit_scene(scene, caster, area_lights)),
       open_sides_(open_sides),
       threads_(threads),
+      seed_(seed),
       bright_(bright_surfaces(lit_, threads)),
       cells_(make_cell_grid(bounds(scene))) {}
 
 SampleCosts GatherRenderer::typical_costs() const {
     return {.direct = 0.12e-6f, .indirect = 0.6e-6f};
+}
+
+void GatherRenderer::scene_changed() {
+    bright_ = bright_surfaces(lit_, threads_);
+    cells_.outdate();
 }
 
 void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) {
@@ -151,7 +156,7 @@ void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<Sha
         std::size_t end = begin;
         for (std::uint32_t samples = 0; end < tasks.size() && samples < kBatchSamples; ++end)
             samples += tasks[end].light == Light::direct ? 0 : tasks[end].count;
-        std::vector<std::vector<Asking>> asked(end - begin);
+        asked_.resize(std::max(asked_.size(), end - begin));
         parallel_for(threads_, end - begin, [&](std::size_t i) {
             thread_local Scratch scratch;
             const Task& task = tasks[begin + i];
@@ -161,14 +166,17 @@ void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<Sha
             TaskResult& part = parts[begin + i];
             part = task.light == Light::direct
                        ? run_direct(lit_, run, task, scratch.wave)
-                       : gather(lit_, options, cells_, run, task, request, scratch, asked[i]);
+                       : gather(lit_, options, cells_, run, task, request, scratch, asked_[i]);
             probe_if_dark(lit_, open_sides_, receiver, task, request, scratch.wave, part);
         });
 
         // What it asked for, in the order of tasks.
-        std::vector<Asking> asking;
-        for (const auto& some : asked) asking.insert(asking.end(), some.begin(), some.end());
-        fill_cells(lit_, options.aims, threads_, cells_, asking);
+        asking_.clear();
+        for (std::vector<Asking>& some : std::span(asked_).first(end - begin)) {
+            asking_.insert(asking_.end(), some.begin(), some.end());
+            some.clear();
+        }
+        fill_cells(lit_, options.aims, threads_, seed_, cells_, asking_);
         begin = end;
     }
     combine(requests, tasks, parts, results);

@@ -3,8 +3,8 @@
 // of a traced path's, at a small bias (docs/results.md), and `path` tells the truth beside it.
 #pragma once
 
-#include "irradiance/irradiance_cells.h"
 #include "sample_renderer/bright_surfaces.h"
+#include "sample_renderer/cell_filling.h"
 #include "sample_renderer/sample_renderer.h"
 #include "scene/open_sides.h"
 
@@ -19,14 +19,18 @@ namespace chiaro {
 /// calls of shade(), one after the other, give the same bits on any number of threads; but a
 /// request's result depends on what was asked before it.
 ///
-/// Thread: as SampleRenderer. Keeps references, as PathRenderer does.
+/// Thread: as SampleRenderer. Keeps references, as PathRenderer does; of lights it keeps copies.
 class GatherRenderer : public SampleRenderer {
 public:
     GatherRenderer(const Scene& scene, const RayCaster& caster, const AreaLights& area_lights,
-                   const OpenSides* open_sides, int threads);
+                   const OpenSides* open_sides, int threads, std::uint32_t seed = 0);
     void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) override;
     SampleCosts typical_costs() const override;
     bool remembers() const override { return true; }
+
+    /// Materials or objects are not what they were: what cells know is stale, so that rays are
+    /// traced on until it is known anew. Where lights changed, make another renderer.
+    void scene_changed();
 
     const IrradianceCells& cells() const { return cells_; }
 
@@ -34,8 +38,11 @@ private:
     LitScene lit_;
     const OpenSides* open_sides_;
     int threads_;
+    std::uint32_t seed_;
     SampledSurfaces bright_;
     IrradianceCells cells_;
+    std::vector<std::vector<Asking>> asked_;  // by task of the batch
+    std::vector<Asking> asking_;
 };
 
 }  // namespace chiaro

@@ -61,7 +61,7 @@ RayCount count_inside(const OpenSides* open_sides, std::span<const Hit> hits) {
 RayCount add_indirect_samples(const LitScene& lit, std::span<const SampleRun> runs,
                               PathWave& scratch, std::span<Rgb> sums,
                               const IndirectOptions& options) {
-    thread_local std::vector<SurfacePoint> targets;
+    thread_local std::vector<Target> targets;
     thread_local std::vector<Rgb> radiance;
     start_paths(runs, scratch);
     const std::size_t by_cosine = scratch.rays.size();

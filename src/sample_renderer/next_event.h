@@ -11,6 +11,10 @@
 
 namespace chiaro {
 
+/// Russian roulette lets paths and walks survive with no more than this, or a closed room of albedo
+/// 1 would never end.
+inline constexpr float kMostSurvival = 0.98f;
+
 /// All that light transport reads, a member for each kind of light; valid while what it names is.
 struct LitScene {
     const Scene& scene;

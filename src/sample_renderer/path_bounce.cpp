@@ -44,7 +44,7 @@ bool survives(float number, Path& path) {
 void go_on(const Bounce& here, const Bsdf& bsdf, const BsdfSample& sample, Path& path, Ray& ray) {
     const bool passes = sample.lobe == Lobe::transmission;
     if (passes && bsdf.thin && sample.delta()) {
-        pass_pane(here.lit.caster, here.hit, ray);
+        pass_pane(here.hit, ray);
         return;
     }
     const Receiver& receiver = here.surface.receiver;
@@ -58,10 +58,9 @@ void go_on(const Bounce& here, const Bsdf& bsdf, const BsdfSample& sample, Path&
 
 }  // namespace
 
-void pass_pane(const RayCaster& caster, const Hit& hit, Ray& ray) {
+void pass_pane(const Hit& hit, Ray& ray) {
     const float cosine = std::max(std::abs(glm::dot(hit.normal, ray.direction)), 0.05f);
-    const Vec3 position = ray.origin + hit.t * ray.direction;
-    ray.t_min = hit.t + 2 * caster.offset(position, hit.point.object) / cosine;
+    ray.t_min = hit.t + 2 * hit.offset / cosine;
 }
 
 MetSurface describe(const LitScene& lit, const Hit& hit) {
@@ -97,7 +96,7 @@ Rgb passed_straight(const LitScene& lit, const Hit& hit, Ray& ray) {
     if (!may_pass_straight(scene.material(material_of(scene, hit.point)))) return Rgb(0);
     const Vec3 normal = shading_normal(scene, hit.point, hit.normal);
     const float cosine = glm::dot(normal, ray.direction);
-    pass_pane(lit.caster, hit, ray);
+    pass_pane(hit, ray);
     return straight_transmittance(bsdf_at(scene, hit.point, hit.front), cosine);
 }
 

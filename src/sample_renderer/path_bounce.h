@@ -27,7 +27,7 @@ Rgb passed_straight(const LitScene& lit, const Hit& hit, Ray& ray);
 
 /// Lets a ray go on through a pane that it met. It remains one ray: its start and its density are
 /// what light samples compare with.
-void pass_pane(const RayCaster& caster, const Hit& hit, Ray& ray);
+void pass_pane(const Hit& hit, Ray& ray);
 
 /// Where a path is.
 struct Bounce {

@@ -6,10 +6,6 @@
 
 namespace chiaro {
 
-/// Russian roulette lets paths survive with no more than this, or a closed room of albedo 1 would
-/// never end.
-inline constexpr float kMostSurvival = 0.98f;
-
 /// Lamps in mirrors that are tried at a bounce.
 inline constexpr std::size_t kImagesABounce = 64;
 

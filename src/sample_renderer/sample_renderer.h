@@ -72,9 +72,12 @@ struct SampleCosts {
 /// The one seam. To be called from the update thread only; it spreads its own work.
 class SampleRenderer {
 public:
+    SampleRenderer() = default;
+    SampleRenderer(const SampleRenderer&) = delete;
+    SampleRenderer& operator=(const SampleRenderer&) = delete;
     virtual ~SampleRenderer() = default;
-    /// One result a request; both spans of one length. The same requests give the same bits, in any
-    /// batch and on any number of threads.
+    /// One result a request; both spans of one length. The same requests give the same bits on any
+    /// number of threads and, unless it remembers(), in any batch.
     virtual void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) = 0;
     virtual SampleCosts typical_costs() const = 0;
     /// True if a result depends on what was asked for in calls before.

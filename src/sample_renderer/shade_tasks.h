@@ -26,7 +26,7 @@ struct TaskResult {
     std::array<Rgb, kReplicates> sums = {};
     Rgb exact = Rgb(0);
     RayCount rays;
-    float shared_variance = 0;  // of the sum's luminance, by errors that all replicates share
+    double shared_variance = 0;  // of the sum's luminance, by errors that all replicates share
 };
 
 /// In the order of requests. Checks: samples are multiples of kReplicates.

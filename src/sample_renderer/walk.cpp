@@ -5,7 +5,6 @@
 namespace chiaro {
 namespace {
 
-constexpr float kMostSurvival = 0.98f;  // as of paths
 constexpr std::uint32_t kSureSteps = 8;
 
 // What part of walks go on that a step takes from `before` to `after`. Radiance is dense in glass,
@@ -18,8 +17,7 @@ float survival(const PathVertex& vertex, const WalkStep& step) {
 }
 
 // Turns the walk into its next edge, or lets it go on along this one; false if it ends.
-bool go_on(const LitScene& lit, const PathVertex& vertex, const Hit& hit, BounceNumbers& numbers,
-           Walk& walk, Ray& ray) {
+bool go_on(const PathVertex& vertex, const Hit& hit, BounceNumbers& numbers, Walk& walk, Ray& ray) {
     const float roulette = numbers.next(), lobe = numbers.next();
     const auto step = sample_step(vertex, lobe, numbers.next_pair());
     if (!step) return false;
@@ -30,7 +28,7 @@ bool go_on(const LitScene& lit, const PathVertex& vertex, const Hit& hit, Bounce
     walk.throughput /= part;
     ++walk.steps;
     if (step->delta && step->passes && vertex.bsdf.thin) {
-        pass_pane(lit.caster, hit, ray);
+        pass_pane(hit, ray);
         return true;
     }
     walk.pdf = step->pdf;
@@ -112,7 +110,7 @@ void follow_walks(const LitScene& lit, WalkWave& wave, const MeetsVertex& meets,
             const PathVertex vertex = arrive(lit, walk, ray, hit, surface);
             BounceNumbers numbers(walk.key, walk.steps);
             meets({walk, ray, hit, surface, vertex}, numbers);
-            if (!go_on(lit, vertex, hit, numbers, walk, ray)) continue;
+            if (!go_on(vertex, hit, numbers, walk, ray)) continue;
             wave.walks[alive] = walk;
             wave.rays[alive] = ray;
             ++alive;

@@ -183,6 +183,31 @@ TEST(Caustic, ARoughRingUnderAPointIsAsBrightAsPathsSay) {
     }
 }
 
+// Two plates, of which one shows one of two lamps that are alike to both: each plate is lit by each
+// lamp as often as by the other, whichever was aimed at.
+TEST(Caustic, EveryPlateIsLitByEveryLamp) {
+    Scene scene;
+    const Vec3 place(0), first(2, 0, 1), second(-2, 0, 1), lamp(0, 1.5f, 3);
+    const MaterialId plate = add_glossy(scene, Rgb(0.95f), metal(0.3f));
+    const auto add_plate = [&](Vec3 at, Vec3 toward) {
+        const Vec3 normal =
+            glm::normalize(glm::normalize(place - at) + glm::normalize(toward - at));
+        const Vec3 across = glm::normalize(glm::cross(Vec3(0, 0, 1), normal));
+        const Vec3 up = glm::cross(normal, across);
+        add_quad(scene, at - 0.2f * (across + up), 0.4f * across, 0.4f * up, plate);
+    };
+    add_plate(first, lamp);
+    add_plate(second, {-1, 0, -5});
+    scene.lights = {point_light(lamp, Rgb(100)), point_light({0, -1.5f, 3}, Rgb(100))};
+    const Meter meter(std::move(scene));
+    Renderers both(meter);
+    const auto a = both.measure(both.caustic, place, {0, 0, 1}, 4096);
+    const auto b = both.measure(both.path, place, {0, 0, 1}, 65'536);
+    EXPECT_LT(std::hypot(a.deviation, b.deviation), 0.02 * b.mean);
+    EXPECT_LT(std::abs(a.mean - b.mean), 5 * std::hypot(a.deviation, b.deviation))
+        << a.mean << " " << b.mean;
+}
+
 // In a box without anything that focuses, it is `path` to the last bit.
 TEST(Caustic, WithoutSpecularSurfacesItIsPath) {
     const Meter meter(cornell_box());

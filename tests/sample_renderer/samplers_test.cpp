@@ -120,7 +120,7 @@ TEST(Samplers, AimedRaysFollowTheDensityOfWhatTheyAreAimedAt) {
 
     // Of 16 samples a seed, four a replicate, four aim.
     PathWave wave;
-    std::vector<SurfacePoint> targets;
+    std::vector<Target> targets;
     std::uint32_t seed = 0;
     std::size_t next = 4;
     const auto draw = [&]() -> std::optional<Vec3> {
