@@ -89,6 +89,10 @@ void GltfMaterials::read(const std::vector<bool>& in_use) {
     if (!normal_map_.empty())
         scene_.warnings.push_back(normal_map_ +
                                   ": normal maps are not supported and were left out");
+    if (!extension_map_.empty())
+        scene_.warnings.push_back(extension_map_ +
+                                  ": textures of this extension are not supported and were left "
+                                  "out");
     warn_of_unused_images();
 }
 
@@ -135,6 +139,13 @@ void GltfMaterials::read_gloss(const tinygltf::Material& source, const std::stri
                                    "specularColorFactor", gloss.specular_color);
     gloss.transmission = number(source.extensions, "KHR_materials_transmission",
                                 "transmissionFactor", gloss.transmission);
+    constexpr std::pair<const char*, const char*> kUnread[] = {
+        {"KHR_materials_transmission", "transmissionTexture"},
+        {"KHR_materials_specular", "specularTexture"},
+        {"KHR_materials_specular", "specularColorTexture"}};
+    for (const auto& [extension, member] : kUnread)
+        if (extension_map_.empty() && find(source.extensions, extension, member) != nullptr)
+            extension_map_ = place + ".extensions." + extension + "." + member;
     gloss.thin = !(number(source.extensions, "KHR_materials_volume", "thicknessFactor", 0) > 0);
 }
 

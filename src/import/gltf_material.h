@@ -38,7 +38,8 @@ private:
     UniqueNames unique_name_;
     std::map<int, MaterialId> known_;
     std::map<std::tuple<int, int, bool>, TextureId> textures_;  // by image, sampler and srgb
-    std::string normal_map_;                                    // the first place of one
+    // The first place of each kind of map that is not read.
+    std::string normal_map_, extension_map_;
 };
 
 }  // namespace chiaro

@@ -9,8 +9,8 @@
 
 namespace chiaro {
 
-/// Agrees with PathRenderer, but for light that this cannot find, which is that of punctual lights
-/// by way of mirrors and clear solids. Direct light is computed alike.
+/// Agrees with PathRenderer, and finds more of punctual lights: all but what reaches the shading
+/// point straight from a smooth surface. Direct light is computed alike.
 ///
 /// Thread, references and Light::total: as of PathRenderer. Build anew when a light changes, or the
 /// bounds of a scene with suns.

@@ -7,7 +7,7 @@
 namespace chiaro {
 
 /// Direct light is PathRenderer's. Indirect light adds to each path one whose first ray is aimed at
-/// a surface that focuses light (caustic_light.h), and to every place on a path the lamps and suns
+/// a surface that focuses light (aimed_rays.h), and to every place on a path the lamps and suns
 /// that flat mirrors show there (mirror_light.h). No light is counted twice. Lacks the light of
 /// punctual lights that comes by way of smooth surfaces which are curved, refract, or are two in a
 /// row.

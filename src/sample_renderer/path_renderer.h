@@ -7,7 +7,7 @@
 namespace chiaro {
 
 /// Irradiance is taken with the cosine about the shading normal, folded up where it reaches below
-/// the real plane (next_event.h). Lacks the light of punctual lights by way of smooth surfaces,
+/// the real plane (receiver.h). Lacks the light of punctual lights by way of smooth surfaces,
 /// which no path finds by chance.
 ///
 /// Thread: as SampleRenderer. Keeps references: objects and materials may be edited between calls,

@@ -405,5 +405,16 @@ TEST(ReadGltf, NormalMapsAreLeftOutWithOneWarning) {
     EXPECT_NE(scene.warnings[0].find("materials[0].normalTexture: normal maps"), std::string::npos);
 }
 
+TEST(ReadGltf, TexturesOfExtensionsAreLeftOutWithAWarning) {
+    const GltfMaker maker = textured_triangle(
+        {{"extensions",
+          {{"KHR_materials_transmission",
+            {{"transmissionFactor", 1}, {"transmissionTexture", {{"index", 0}}}}}}}});
+    const Scene scene = TempFolder().load("a.gltf", maker.text());
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("KHR_materials_transmission.transmissionTexture: textures"),
+              std::string::npos);
+}
+
 }  // namespace
 }  // namespace chiaro
