@@ -18,7 +18,7 @@ constexpr std::uint32_t kBatchSamples = 16384;
 constexpr float kRaysANote = 8;
 
 // One in so many samples also aims at what is bright.
-constexpr std::uint32_t kSamplesAnAimedRay = 4;
+constexpr std::uint32_t kSamplesAnAimedRay = 8;
 
 // What of one request's estimate hangs on each cell: errors of a cell are common to all rays that
 // end in it.
