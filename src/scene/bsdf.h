@@ -21,7 +21,7 @@ inline constexpr float kSmoothRoughness = 0.03f;
 
 /// Facets of at least this width (Bsdf::alpha) reflect so little detail that a cache may keep what
 /// they show; narrower ones ask for rays a pixel (docs/overview.md has the measurements).
-inline constexpr float kCachedFacets = 0.3f * 0.3f;
+inline constexpr float kCachedFacets = 0.25f * 0.25f;
 
 struct Bsdf {
     Rgb diffuse = Rgb(0);  // albedo of the base, in [0, 1], times the part that is no metal
