@@ -51,6 +51,8 @@ SeenRow refine_row(const Viewing& viewing, int y, const SeenRow& coarse,
     const std::vector<FinePixel> pixels = fine_pixels(viewing, y, centres);
     SeenRow fine;
     fine.background = coarse.background;
+    fine.steady = coarse.steady;
+    fine.rays = coarse.rays;
     if (viewing.aov == Aov::radiance)
         for (int x = 0; x < viewing.view.width(); ++x)
             if (centres[y].at(x).empty()) fine.background[x] = mean_environment(viewing, x, y);
@@ -58,6 +60,8 @@ SeenRow refine_row(const Viewing& viewing, int y, const SeenRow& coarse,
 
     SeenRow row;
     row.background = std::move(fine.background);
+    row.steady = std::move(fine.steady);
+    row.rays = std::move(fine.rays);
     row.pieces.reserve(coarse.pieces.size() + fine.pieces.size());
     auto from_coarse = coarse.pieces.begin();
     auto from_fine = fine.pieces.begin();
@@ -97,15 +101,19 @@ IdMap put_on_roots(ShadingCache& cache, const std::vector<SeenRow>& rows, const 
             const auto pixel = static_cast<std::uint32_t>(y * map.width + x);
             map.first_of_pixel.push_back(static_cast<std::uint32_t>(map.fragments.size()));
             map.background.pixels[pixel] = rows[y].background[x];
+            bool chance = false;
             for (; piece != rows[y].pieces.end() && piece->x == static_cast<std::uint32_t>(x);
                  ++piece) {
                 const SurfacePoint& at = piece->point;
+                chance |= by_chance(piece->trail) || piece->glint != Rgb(0);
                 if (piece->glint != Rgb(0))
                     map.glints.push_back({pixel, at, piece->front, piece->seen_from, piece->glint});
                 if (piece->reflectance == Rgb(0) && piece->gloss == Rgb(0)) continue;
                 map.fragments.push_back({pixel, cache.root(at.object, at.primitive, piece->front),
-                                         Vec2(at.u, at.v), piece->reflectance, piece->gloss});
+                                         Vec2(at.u, at.v), piece->reflectance, piece->gloss,
+                                         by_chance(piece->trail)});
             }
+            if (chance) map.chance_pixels.push_back({pixel, rows[y].rays[x], rows[y].steady[x]});
         }
     }
     map.first_of_pixel.push_back(static_cast<std::uint32_t>(map.fragments.size()));
@@ -136,6 +144,34 @@ IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
         rows = std::move(finer);
     }
     return put_on_roots(cache, rows, view, settings.aov);
+}
+
+ChancePass look_again(ShadingCache& cache, const RayCaster& rays, const View& view,
+                      const RayViewSettings& settings, std::span<const ChancePixel> pixels,
+                      std::uint32_t pass) {
+    constexpr std::size_t kPixelsAtOnce = 64;
+    const Viewing viewing = make_viewing(rays, view, settings);
+    std::vector<SeenRow> rows((pixels.size() + kPixelsAtOnce - 1) / kPixelsAtOnce);
+    parallel_for(settings.threads, rows.size(), [&](std::size_t i) {
+        const auto rest = pixels.subspan(i * kPixelsAtOnce);
+        see_by_chance(viewing, rest.first(std::min(rest.size(), kPixelsAtOnce)), pass, rows[i]);
+    });
+
+    ChancePass seen;
+    for (const SeenRow& row : rows) {
+        const auto first = static_cast<std::uint32_t>(seen.light.size());
+        seen.light.insert(seen.light.end(), row.background.begin(), row.background.end());
+        for (const SeenPiece& piece : row.pieces) {
+            const SurfacePoint& at = piece.point;
+            const std::uint32_t pixel = first + piece.x;
+            if (piece.glint != Rgb(0))
+                seen.glints.push_back({pixel, at, piece.front, piece.seen_from, piece.glint});
+            if (piece.reflectance == Rgb(0)) continue;
+            seen.fragments.push_back({pixel, cache.root(at.object, at.primitive, piece.front),
+                                      Vec2(at.u, at.v), piece.reflectance, piece.gloss, true});
+        }
+    }
+    return seen;
 }
 
 Image draw(const ShadingCache& cache, const IdMap& map, int threads) {

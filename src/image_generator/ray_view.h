@@ -8,6 +8,8 @@
 #include "scene/open_sides.h"
 #include "shading_cache/id_map.h"
 
+#include <optional>
+
 namespace chiaro {
 
 /// What a picture's pixels hold.
@@ -29,6 +31,8 @@ struct RayViewSettings {
     /// Facets of at least this width (Bsdf::alpha), seen straight or through panes, show the
     /// cache's glossy radiance; what narrower ones show is found by rays.
     float cached_facets = kInfinity;
+    /// Whether the environment shines, if the caller knows: to find out, its map is read.
+    std::optional<bool> environment = std::nullopt;
 };
 
 /// The fragments that `view` shows, each on the root patch that holds it (made if new); attach()
@@ -40,6 +44,26 @@ struct RayViewSettings {
 /// seen, unless it is null.
 IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
                   const RayViewSettings& settings, OpenSides* open_sides);
+
+/// What a further pass of rays through some pixels shows by chance.
+struct ChancePass {
+    std::vector<Fragment> fragments;  // on root patches; `pixel` is an index into the pixels asked
+    std::vector<Rgb> light;           // by pixel: emission and environment
+    std::vector<Glint> glints;        // `pixel` likewise
+};
+
+/// Rays a pixel of every pass; fewer where polish shows so little that the first look took one ray.
+inline std::uint32_t rays_a_pass(const ChancePixel& pixel) {
+    return pixel.rays == 1 ? 4 : 16;
+}
+
+/// Looks again at pixels of a map of `view` by random directions of their own: all that polish
+/// shows there, and none of what chance has no say in. Passes are numbered from 1 and continue
+/// each pixel's sequence. Random places within the pixel stand for what lies together there, so
+/// that the mean of many passes is that over the pixel.
+ChancePass look_again(ShadingCache& cache, const RayCaster& rays, const View& view,
+                      const RayViewSettings& settings, std::span<const ChancePixel> pixels,
+                      std::uint32_t pass);
 
 /// The picture of an attached map: what its fragments show, over the background.
 Image draw(const ShadingCache& cache, const IdMap& map, int threads);

@@ -23,10 +23,19 @@ struct Way {
 struct Wave {
     std::vector<Ray> rays;
     std::vector<Way> ways;
+
+    void clear() {
+        rays.clear();
+        ways.clear();
+    }
 };
 struct Waves {
     Wave camera, transport;
     bool empty() const { return camera.rays.empty() && transport.rays.empty(); }
+    void clear() {
+        camera.clear();
+        transport.clear();
+    }
 };
 
 // What follows rays of one call, and where they go next.
@@ -34,7 +43,6 @@ struct Chains {
     const RayCaster& rays;
     std::span<const Looking> looking;
     const ChainSettings& settings;
-    bool environment = false;  // there is one to be seen
     Waves next = {};
     std::vector<LayerHit> layers = {};
 
@@ -132,6 +140,7 @@ Sighting Chains::make_sighting(const Way& way, float part) const {
 void Chains::see(RayKind kind, const Wave& wave, bool last, std::vector<Sighting>& found) {
     const Scene& scene = rays.scene();
     const EnvironmentFrame frame(scene.up);
+    const bool sees_environment = settings.chains && settings.environment;
     rays.intersect_layers(wave.rays, layers, kind);
     auto layer = layers.begin();
     for (std::uint32_t i = 0; i < wave.rays.size(); ++i) {
@@ -153,7 +162,7 @@ void Chains::see(RayKind kind, const Wave& wave, bool last, std::vector<Sighting
             }
             found.push_back(at);
         }
-        if (left < kLeastPart || !environment || wave.ways[i].after_chance) continue;
+        if (left < kLeastPart || !sees_environment || wave.ways[i].after_chance) continue;
         Sighting beyond = make_sighting(wave.ways[i], left);
         beyond.light = beyond.weight * radiance_from(scene.environment, frame, ray.direction);
         found.push_back(beyond);
@@ -173,11 +182,10 @@ void look(const RayCaster& rays, std::span<const Looking> looking, const ChainSe
         waves.camera.rays.push_back(looking[i].ray);
         waves.camera.ways.push_back({i, 0, Rgb(1), 0, 1, false});
     }
-    const bool environment = settings.chains && !is_dark(rays.scene().environment);
-    Chains chains{rays, looking, settings, environment};
+    Chains chains{rays, looking, settings};
     for (int surfaces = 1; !waves.empty(); ++surfaces) {
         const bool last = surfaces == kMostSurfaces;
-        chains.next = {};
+        chains.next.clear();
         chains.see(RayKind::camera, waves.camera, last, found);
         chains.see(RayKind::transport, waves.transport, last, found);
         std::swap(waves, chains.next);

@@ -60,6 +60,7 @@ struct ChainSettings {
     bool chains = true;  // false: surfaces seen straight alone, not what they look like or emit
     int directions = 1;  // by chance, where a chain first meets polish that is not perfect
     float cached_facets = kInfinity;  // as RayViewSettings has it
+    bool environment = true;          // it shines, so that rays beyond all surfaces look it up
 };
 
 /// Everything that the rays show; replaces `found`, the surfaces seen straight first and ray by

@@ -1,7 +1,9 @@
 #include "image_generator/view_fragments.h"
 
+#include "base/halton.h"
+#include "base/random.h"
+
 #include <algorithm>
-#include <array>
 
 namespace chiaro {
 namespace {
@@ -42,8 +44,10 @@ struct PixelPieces {
     std::vector<SeenPiece>& pieces;
     std::size_t first;
     float footprint;
+    bool pick = false;              // one of the places by chance instead of their mean
     std::vector<float> parts = {};  // of each piece
     std::vector<Vec3> positions = {};
+    Rng random = Rng(0);
 
     void next() {
         first = pieces.size();
@@ -59,9 +63,15 @@ struct PixelPieces {
                 !together(known.trail, piece, position, s))
                 continue;
             const float share = part / (parts[i - first] + part);
-            known.point.u += share * (piece.point.u - known.point.u);
-            known.point.v += share * (piece.point.v - known.point.v);
-            position += share * (s.position - position);
+            if (!pick) {
+                known.point.u += share * (piece.point.u - known.point.u);
+                known.point.v += share * (piece.point.v - known.point.v);
+                position += share * (s.position - position);
+            } else if (random.uniform() < share) {
+                known.point = piece.point;
+                known.seen_from = piece.seen_from;
+                position = s.position;
+            }
             known.reflectance += piece.reflectance;
             known.gloss += piece.gloss;
             known.glint += piece.glint;
@@ -98,7 +108,11 @@ std::vector<std::uint32_t> by_pixel(std::span<const Looking> looking,
 void see_fine(const Viewing& viewing, std::span<const Looking> looking, SeenRow& row) {
     thread_local std::vector<Sighting> sightings;
     look(viewing.rays, looking, viewing.chains, sightings);
-    for (const Looking& l : looking) row.background[l.x] = Rgb(0);
+    for (const Looking& l : looking) {
+        row.background[l.x] = row.steady[l.x] = Rgb(0);
+        row.rays[l.x] = 0;
+    }
+    for (const Looking& l : looking) ++row.rays[l.x];
     PixelPieces pixel{row.pieces, row.pieces.size(), viewing.footprint};
     std::uint32_t last_x = looking.front().x;
     for (const std::uint32_t i : by_pixel(looking, sightings)) {
@@ -107,8 +121,26 @@ void see_fine(const Viewing& viewing, std::span<const Looking> looking, SeenRow&
         if (x != last_x) pixel.next();
         last_x = x;
         if (s.hit) pixel.add(make_piece(s, x, viewing.aov), s, max_component(s.weight));
-        row.background[x] += s.light;
+        row.add(x, s);
     }
+}
+
+// Ray `r` of a later pass: place and directions are dimensions of one sequence, so that all of them
+// meet in the end.
+Looking look_again_at(const View& view, const ChancePixel& pixel, std::uint32_t index) {
+    constexpr std::uint32_t kSalt = 0x9e3779b9;
+    const auto width = static_cast<std::uint32_t>(view.width());
+    const std::uint32_t key = hash32(pixel.pixel, kSalt);
+    const auto place = [&](int dimension) {
+        return rotate_unit(halton(dimension, index),
+                           to_unit_float(hash32(key, static_cast<std::uint32_t>(dimension))));
+    };
+    Looking l = look_at(view, static_cast<int>(pixel.pixel % width),
+                        static_cast<int>(pixel.pixel / width), {place(3), place(4)});
+    l.part = 1 / static_cast<float>(rays_a_pass(pixel));
+    l.key = hash32(key);
+    l.index = index;
+    return l;
 }
 
 }  // namespace
@@ -119,6 +151,8 @@ Viewing make_viewing(const RayCaster& rays, const View& view, const RayViewSetti
     ChainSettings chains;
     chains.chains = settings.aov == Aov::radiance;
     chains.cached_facets = settings.cached_facets;
+    chains.environment =
+        settings.environment ? *settings.environment : !is_dark(rays.scene().environment);
     return {rays, view, settings.aov, chains,
             glm::length(view.ray(x + 1, y).direction - view.ray(x, y).direction)};
 }
@@ -126,7 +160,8 @@ Viewing make_viewing(const RayCaster& rays, const View& view, const RayViewSetti
 SeenRow see_row(const Viewing& viewing, int y, CentreRow* centres) {
     const int width = viewing.view.width();
     SeenRow row;
-    row.background.assign(width, Rgb(0));
+    row.start(static_cast<std::size_t>(width));
+    row.rays.assign(width, 1);
     std::vector<Looking> looking(width);
     for (int x = 0; x < width; ++x) looking[x] = look_at(viewing.view, x, y, Vec2(0.5f));
 
@@ -137,7 +172,7 @@ SeenRow see_row(const Viewing& viewing, int y, CentreRow* centres) {
         const Sighting& s = sightings[i];
         const std::uint32_t x = looking[s.looking].x;
         if (s.hit) row.pieces.push_back(make_piece(s, x, viewing.aov));
-        row.background[x] += s.light;
+        row.add(x, s);
     }
     if (centres) *centres = make_centre_row(viewing.rays.scene(), looking, sightings);
     return row;
@@ -187,6 +222,37 @@ void see_pixels(const Viewing& viewing, int y, std::span<const FinePixel> pixels
     }
 }
 
+void see_by_chance(const Viewing& viewing, std::span<const ChancePixel> pixels, std::uint32_t pass,
+                   SeenRow& row) {
+    row.start(pixels.size());
+    std::vector<Looking> looking;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const std::uint32_t rays = rays_a_pass(pixels[i]);
+        for (std::uint32_t r = 0; r < rays; ++r) {
+            looking.push_back(look_again_at(viewing.view, pixels[i], (pass - 1) * rays + r));
+            looking.back().x = static_cast<std::uint32_t>(i);
+        }
+    }
+    thread_local std::vector<Sighting> sightings;
+    look(viewing.rays, looking, viewing.chains, sightings);
+    PixelPieces pixel{row.pieces, row.pieces.size(), viewing.footprint, true};
+    auto last = static_cast<std::uint32_t>(-1);
+    for (const std::uint32_t i : by_pixel(looking, sightings)) {
+        const Sighting& s = sightings[i];
+        const std::uint32_t x = looking[s.looking].x;
+        if (x != last) {
+            pixel.next();
+            pixel.random = Rng(hash32(pixels[x].pixel, pass));
+        }
+        last = x;
+        if (by_chance(s.trail)) row.background[x] += s.light;
+        SeenPiece piece = make_piece(s, x, viewing.aov);
+        if (!by_chance(s.trail)) piece.reflectance = piece.gloss = Rgb(0);
+        const bool shows = piece.reflectance != Rgb(0) || piece.glint != Rgb(0);
+        if (s.hit && shows) pixel.add(piece, s, max_component(s.weight));
+    }
+}
+
 Rgb mean_environment(const Viewing& viewing, int x, int y) {
     const Scene& scene = viewing.rays.scene();
     const Environment& environment = scene.environment;
@@ -200,37 +266,6 @@ Rgb mean_environment(const Viewing& viewing, int x, int y) {
         sum += radiance_from(environment, frame, ray.direction);
     }
     return sum / static_cast<float>(side * side);
-}
-
-Rgb mean_diffuse_albedo(const Scene& scene, const SeenPiece& piece, const SurfacePoint& beside,
-                        const SurfacePoint& below) {
-    const SurfacePoint& here = piece.point;
-    const Vec2 across(beside.u - here.u, beside.v - here.v);
-    const Vec2 down(below.u - here.u, below.v - here.v);
-    const auto albedo_at = [&](float x, float y) {
-        SurfacePoint p = here;
-        const Vec2 uv = Vec2(here.u, here.v) + x * across + y * down;
-        p.u = std::clamp(uv.x, 0.0f, 1.0f);
-        p.v = std::clamp(uv.y, 0.0f, 1.0f);
-        return diffuse_albedo(bsdf_at(scene, p, piece.front), piece.cosine);
-    };
-    // Four places, irregular so that no pattern falls in step with them, show whether there is any
-    // detail within the pixel; if so, sixteen resolve it.
-    constexpr std::array<Vec2, 4> kProbes = {Vec2(-0.37f, -0.21f), Vec2(0.29f, -0.38f),
-                                             Vec2(0.41f, 0.33f), Vec2(-0.18f, 0.27f)};
-    Rgb sum(0), low(kInfinity), high(0);
-    for (const Vec2 probe : kProbes) {
-        const Rgb c = albedo_at(probe.x, probe.y);
-        sum += c;
-        low = glm::min(low, c);
-        high = glm::max(high, c);
-    }
-    if (max_component(high - low) <= 0.02f * max_component(high)) return 0.25f * sum;
-    sum = Rgb(0);
-    for (int i = 0; i < 16; ++i)
-        sum += albedo_at((static_cast<float>(i % 4) - 1.5f) / 4,
-                         (static_cast<float>(i / 4) - 1.5f) / 4);
-    return sum / 16.0f;
 }
 
 }  // namespace chiaro

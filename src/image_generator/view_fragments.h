@@ -25,6 +25,19 @@ struct SeenPiece {
 struct SeenRow {
     std::vector<SeenPiece> pieces;  // in order of x
     std::vector<Rgb> background;    // a pixel: radiance that needs no shading
+    // Of pixels that show something by chance: the background less that, and how many rays saw it.
+    std::vector<Rgb> steady;
+    std::vector<std::uint32_t> rays;
+
+    void start(std::size_t width) {
+        background.assign(width, Rgb(0));
+        steady.assign(width, Rgb(0));
+        rays.assign(width, 0);
+    }
+    void add(std::uint32_t x, const Sighting& s) {
+        background[x] += s.light;
+        if (!by_chance(s.trail)) steady[x] += s.light;
+    }
 };
 
 /// A view that rays look at.
@@ -55,6 +68,11 @@ struct FinePixel {
 /// What these rays through `pixels` of row `y`, in order of x, see: appends their pieces to `row`
 /// and sets their backgrounds there.
 void see_pixels(const Viewing& viewing, int y, std::span<const FinePixel> pixels, SeenRow& row);
+
+/// What a pass of look_again() shows by chance: `row` has an entry for each of `pixels` in place of
+/// those of a row.
+void see_by_chance(const Viewing& viewing, std::span<const ChancePixel> pixels, std::uint32_t pass,
+                   SeenRow& row);
 
 /// Mean radiance over pixel (x, y) of the environment, which fills it, by as many looks as its map
 /// has pixels there, up to 64.

@@ -102,6 +102,15 @@ PatchId subdivide_seen(ShadingCache& cache, IdMap& map, PatchId leaf, Cycle now)
     return first;
 }
 
+void hand_to_leaf(const ShadingCache& cache, Fragment& fragment) {
+    while (!cache.patch(fragment.patch).is_leaf()) {
+        const Patch& p = cache.patch(fragment.patch);
+        const int child = child_at(p.split, fragment.local);
+        fragment.local = to_child(p.split, child, fragment.local);
+        fragment.patch = offset_by(p.first_child, child);
+    }
+}
+
 Rgb shown_by(const ShadingCache& cache, const Fragment& f) {
     Rgb sum(0);
     if (f.reflectance != Rgb(0)) sum += f.reflectance * irradiance_at(cache, f.patch, f.local);

@@ -11,11 +11,12 @@ namespace chiaro {
 /// A piece of surface that shows in a pixel. A pixel inside a surface has one fragment, one on an
 /// outline several, whose reflectances carry their parts of the pixel.
 struct Fragment {
-    std::uint32_t pixel;  // y * width + x
-    PatchId patch;        // the leaf on which it lies
-    Vec2 local;           // its place there (split.h)
-    Rgb reflectance;      // radiance in the pixel over irradiance here: coverage x albedo / pi
-    Rgb gloss = Rgb(0);   // and over glossy radiance here: coverage, where it is cached
+    std::uint32_t pixel;     // y * width + x
+    PatchId patch;           // the leaf on which it lies
+    Vec2 local;              // its place there (split.h)
+    Rgb reflectance;         // radiance in the pixel over irradiance here: coverage x albedo / pi
+    Rgb gloss = Rgb(0);      // and over glossy radiance here: coverage, where it is cached
+    bool by_chance = false;  // polish shows it there, by random directions
 };
 
 /// A surface whose polish, too even to be cached, shows lights in a pixel.
@@ -27,6 +28,14 @@ struct Glint {
     Rgb weight;      // radiance in the pixel over radiance toward there
 };
 
+/// A pixel in which polish shows something, which the first look at it found by chance. Of the
+/// map's fragments and background there the steady part is what chance had no say in.
+struct ChancePixel {
+    std::uint32_t pixel;
+    std::uint32_t rays;  // that looked at it
+    Rgb steady_background;
+};
+
 /// The paper's map of patch identifiers, by rays instead of a rendered image: kept with the list of
 /// fragments of each patch, so that a still view needs no new map a cycle. Inner patches know their
 /// fragments too: those of their descendants, consecutive in `order`.
@@ -36,9 +45,12 @@ struct IdMap {
     std::vector<Fragment> fragments;            // in order of pixels
     std::vector<std::uint32_t> first_of_pixel;  // width x height + 1 entries
     std::vector<std::uint32_t> order;           // fragments by patch: Patch::first_fragment
-    Image background;  // radiance that needs no shading: emission, and black where nothing is
+    // Radiance that needs no shading: emission, the environment where nothing hides it, and what
+    // the glints show once that is sampled.
+    Image background;
     std::vector<Glint> glints;  // in order of pixels; the background lacks what they show of lights
-    bool irradiance = false;    // it is a picture of irradiance, not radiance
+    std::vector<ChancePixel> chance_pixels;  // in order of pixels
+    bool irradiance = false;                 // it is a picture of irradiance, not radiance
 
     std::span<const Fragment> at_pixel(std::uint32_t pixel) const {
         return std::span(fragments).subspan(first_of_pixel[pixel],
@@ -53,6 +65,9 @@ void attach(ShadingCache& cache, IdMap& map, Cycle now);
 
 /// Divides a leaf and hands its fragments to the children. Returns the first child.
 PatchId subdivide_seen(ShadingCache& cache, IdMap& map, PatchId leaf, Cycle now);
+
+/// Moves a fragment that names a patch and a place on it down to the leaf there.
+void hand_to_leaf(const ShadingCache& cache, Fragment& fragment);
 
 /// What the fragment shows of the cache [cd/m2 a channel; lux in a picture of irradiance].
 Rgb shown_by(const ShadingCache& cache, const Fragment& fragment);

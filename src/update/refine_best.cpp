@@ -46,7 +46,7 @@ double UpdateCycle::work_seconds(const ShadeWork& work) const {
 
 void UpdateCycle::choose(ShadeWork& work) {
     const StepTimer timer(statistics_.timings, Step::sample_selection);
-    const double budget = seconds_budget();
+    const double budget = seconds_budget() * (1 - polish_share());
     // Each choice either adds work or takes a patch out of the draw, so this ends.
     for (int tries = 0; tries < 200000 && work_seconds(work) < budget; ++tries) {
         if (rng_.uniform() < kChance) {

@@ -72,9 +72,6 @@ constexpr double kDirectShare = 0.15;
 constexpr double kGlossyShare = 0.5;
 constexpr std::uint32_t kMostFirstSamples = 4;
 
-// Samples of lights that a pixel's polish takes when the view rests.
-constexpr std::uint32_t kGlintSamples = 4 * kReplicates;
-
 SplitRule split_rule(Scheme scheme) {
     return scheme == Scheme::paper ? SplitRule::always_four : SplitRule::by_shape;
 }
@@ -89,8 +86,10 @@ UpdateCycle::UpdateCycle(const RayCaster& rays, SampleRenderer& renderer, OpenSi
       settings_(settings),
       plans_(plan_channels(settings, rays.scene())),
       cache_(rays.scene(), count_channels(plans_), split_rule(settings.scheme)),
+      environment_(!is_dark(rays.scene().environment)),
       rng_(settings.seed),
-      front_(plans_.size()) {
+      front_(plans_.size()),
+      seconds_a_polished_pixel_(kSecondsAPolishedPixel) {
     for (std::size_t c = 0; c < plans_.size(); ++c) {
         gains_.first_samples[c] = plans_[c].first_samples;
         // Before any costs were measured, and for good in cycles of fixed size.
@@ -112,60 +111,25 @@ void UpdateCycle::run() {
     switch (stage_) {
         case Stage::new_view:
             make_map(ViewQuality::one_ray);
+            restart_polish();
             start();
             stage_ = Stage::covered;
             break;
         case Stage::covered:
             // The view rests: outlines and textures deserve more rays now.
             make_map(ViewQuality::antialiased);
+            restart_polish();
             start();
             stage_ = Stage::refining;
             break;
         default:
             settings_.scheme == Scheme::paper ? refine_as_paper() : refine();
+            polish();
     }
     age();
     ++statistics_.cycles;
     statistics_.seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_time).count();
-}
-
-void UpdateCycle::make_map(ViewQuality quality) {
-    const StepTimer timer(statistics_.timings, Step::sample_selection);
-    const RayViewSettings view = {.quality = quality,
-                                  .aov = settings_.aov,
-                                  .threads = settings_.threads,
-                                  .cached_facets = settings_.cached_facets};
-    map_ = make_id_map(cache_, *rays_, *view_, view, open_sides_);
-    attach(cache_, map_, static_cast<Cycle>(statistics_.cycles));
-    add_glints(quality == ViewQuality::one_ray ? kGlintSamples / 4 : kGlintSamples);
-}
-
-// What polish shows of lights is sampled a pixel, once, as the view is.
-void UpdateCycle::add_glints(std::uint32_t samples) {
-    const StepTimer timer(statistics_.timings, Step::rendering);
-    std::vector<ShadeRequest> requests;
-    for (const Glint& glint : map_.glints) {
-        ShadeRequest request;
-        request.where = glint.where;
-        request.front = glint.front;
-        request.light = Light::glint;
-        request.eye = glint.seen_from;
-        request.seed = hash32(hash64(settings_.seed), static_cast<std::uint32_t>(requests.size()));
-        // The larger its part, the more; a multiple of kReplicates.
-        const float part = std::min(max_component(glint.weight), 1.0f);
-        request.samples =
-            kReplicates *
-            static_cast<std::uint32_t>(std::ceil(part * static_cast<float>(samples / kReplicates)));
-        requests.push_back(request);
-    }
-    std::vector<ShadeResult> results(requests.size());
-    renderer_->shade(requests, results);
-    for (std::size_t i = 0; i < results.size(); ++i) {
-        const Glint& glint = map_.glints[i];
-        map_.background.pixels[glint.pixel] += glint.weight * results[i].mean;
-    }
-    map_.glints = {};
 }
 
 ShadeWork UpdateCycle::new_work() const {
@@ -263,7 +227,9 @@ int UpdateCycle::threads_at_once() const {
 
 Image UpdateCycle::picture() {
     if (points_since_refresh_ > 0) cache_.resolve();
-    return draw(cache_, map_, settings_.threads);
+    Image picture = draw(cache_, map_, settings_.threads);
+    polish_.show(cache_, map_, settings_.threads, picture);
+    return picture;
 }
 
 // The scale on which errors are weighed: that of the pictures' comparison, from every few pixels.
@@ -286,11 +252,13 @@ void UpdateCycle::age() {
     // All ids have changed: look again.
     for (SumTree& tree : front_) tree.clear();
     make_map(ViewQuality::antialiased);
+    // The view is the same, and so are its pixels: what passes have shown of them stays.
+    if (polish_.size() != map_.chance_pixels.size()) restart_polish();
     refresh();
 }
 
 std::size_t UpdateCycle::bytes() const {
-    std::size_t total = cache_.bytes();
+    std::size_t total = cache_.bytes() + polish_.bytes();
     for (const SumTree& tree : front_) total += tree.bytes();
     return total;
 }

@@ -7,6 +7,7 @@
 #include "sample_selector/sum_tree.h"
 #include "scene/bsdf.h"
 #include "shading_cache/age_out.h"
+#include "update/polish_means.h"
 #include "update/shade_work.h"
 #include "update/timings.h"
 
@@ -66,11 +67,19 @@ public:
     /// Samples that the last cycle of the paper's scheme selected.
     const std::vector<SelectedPixel>& last_selection() const { return selection_; }
     const PictureScale& scale() const { return gains_.scale; }
+    /// Of the cache, the front and the means over what polish shows; not of the map.
     std::size_t bytes() const;
 
 private:
     void make_map(ViewQuality quality);
+    RayViewSettings view_settings() const;
     void add_glints(std::uint32_t samples);
+    double polish_share() const;
+    void restart_polish();
+    void polish();
+    double polish_pixels(std::size_t count);
+    void light_surfaces(std::span<const Fragment> fragments, ShadeWork& work);
+    void light_pixels(const ChancePass& seen, std::span<Rgb> light);
     ShadeWork new_work() const;
     void start();
     void dig_out();
@@ -101,6 +110,8 @@ private:
     std::vector<ChannelPlan> plans_;
     ShadingCache cache_;
     IdMap map_;
+    PolishMeans polish_;
+    bool environment_;  // there is one that shines
     std::optional<View> view_;
     enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
 
@@ -111,6 +122,8 @@ private:
     std::size_t points_since_refresh_ = 0;
     std::size_t points_at_exposure_ = 0;
     double paper_sample_count_ = 70;
+    double polish_credit_ = 0;  // processor seconds that passes over polish may take now
+    double seconds_a_polished_pixel_;
     std::vector<SelectedPixel> selection_;
     Statistics statistics_;
 };
