@@ -149,7 +149,7 @@ IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
 ChancePass look_again(ShadingCache& cache, const RayCaster& rays, const View& view,
                       const RayViewSettings& settings, std::span<const ChancePixel> pixels,
                       std::uint32_t pass) {
-    constexpr std::size_t kPixelsAtOnce = 64;
+    constexpr std::size_t kPixelsAtOnce = 16;  // few, so that short passes are shared too
     const Viewing viewing = make_viewing(rays, view, settings);
     std::vector<SeenRow> rows((pixels.size() + kPixelsAtOnce - 1) / kPixelsAtOnce);
     parallel_for(settings.threads, rows.size(), [&](std::size_t i) {
