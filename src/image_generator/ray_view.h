@@ -52,15 +52,10 @@ struct ChancePass {
     std::vector<Glint> glints;        // `pixel` likewise
 };
 
-/// Rays a pixel of every pass; fewer where polish shows so little that the first look took one ray.
-inline std::uint32_t rays_a_pass(const ChancePixel& pixel) {
-    return pixel.rays == 1 ? 4 : 16;
-}
-
 /// Looks again at pixels of a map of `view` by random directions of their own: all that polish
-/// shows there, and none of what chance has no say in. Passes are numbered from 1 and continue
-/// each pixel's sequence. Random places within the pixel stand for what lies together there, so
-/// that the mean of many passes is that over the pixel.
+/// shows there, and none of what chance has no say in, by the first look's rays. Passes are
+/// numbered from 1 and continue each pixel's sequence. Of what lies together in a pixel one place
+/// stands for all, another in every pass.
 ChancePass look_again(ShadingCache& cache, const RayCaster& rays, const View& view,
                       const RayViewSettings& settings, std::span<const ChancePixel> pixels,
                       std::uint32_t pass);

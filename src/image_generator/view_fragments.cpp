@@ -1,6 +1,5 @@
 #include "image_generator/view_fragments.h"
 
-#include "base/halton.h"
 #include "base/random.h"
 
 #include <algorithm>
@@ -125,21 +124,22 @@ void see_fine(const Viewing& viewing, std::span<const Looking> looking, SeenRow&
     }
 }
 
-// Ray `r` of a later pass: place and directions are dimensions of one sequence, so that all of them
-// meet in the end.
-Looking look_again_at(const View& view, const ChancePixel& pixel, std::uint32_t index) {
+// Ray `r` of a later pass, at the place that it had in the first look, so that both agree on what
+// covers the pixel. Each pass has the sequence's directions in another order: all places meet all
+// of them in the end.
+Looking look_again_at(const View& view, const ChancePixel& pixel, std::uint32_t pass,
+                      std::uint32_t r) {
     constexpr std::uint32_t kSalt = 0x9e3779b9;
     const auto width = static_cast<std::uint32_t>(view.width());
-    const std::uint32_t key = hash32(pixel.pixel, kSalt);
-    const auto place = [&](int dimension) {
-        return rotate_unit(halton(dimension, index),
-                           to_unit_float(hash32(key, static_cast<std::uint32_t>(dimension))));
-    };
+    int side = 1;
+    while (static_cast<std::uint32_t>(side * side) < pixel.rays) ++side;
+    const Vec2 place = side == 1 ? Vec2(0.5f) : place_in_pixel(static_cast<int>(r), side);
     Looking l = look_at(view, static_cast<int>(pixel.pixel % width),
-                        static_cast<int>(pixel.pixel / width), {place(3), place(4)});
-    l.part = 1 / static_cast<float>(rays_a_pass(pixel));
-    l.key = hash32(key);
-    l.index = index;
+                        static_cast<int>(pixel.pixel / width), place);
+    l.part = 1 / static_cast<float>(pixel.rays);
+    l.key = hash32(pixel.pixel, kSalt);
+    const std::uint32_t turn = hash32(hash32(l.key), pass) % pixel.rays;
+    l.index = (pass - 1) * pixel.rays + (r + turn) % pixel.rays;
     return l;
 }
 
@@ -227,9 +227,8 @@ void see_by_chance(const Viewing& viewing, std::span<const ChancePixel> pixels, 
     row.start(pixels.size());
     std::vector<Looking> looking;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const std::uint32_t rays = rays_a_pass(pixels[i]);
-        for (std::uint32_t r = 0; r < rays; ++r) {
-            looking.push_back(look_again_at(viewing.view, pixels[i], (pass - 1) * rays + r));
+        for (std::uint32_t r = 0; r < pixels[i].rays; ++r) {
+            looking.push_back(look_again_at(viewing.view, pixels[i], pass, r));
             looking.back().x = static_cast<std::uint32_t>(i);
         }
     }

@@ -20,7 +20,7 @@ void PolishMeans::add(const IdMap& map, std::span<const Rgb> light) {
             complete = filled;
             filled = {};
         }
-        const auto rays = static_cast<float>(rays_a_pass(pixel));
+        const auto rays = static_cast<float>(pixel.rays);
         filled.sum += shown * rays;
         filled.rays += rays;
     }

@@ -80,6 +80,27 @@ TEST(Polish, ItsErrorFallsWithTheWorkWhileTheViewRests) {
     }
 }
 
+// Passes add nothing and lose nothing, at outlines neither: a white box that is all polish vanishes
+// in an even sky. Directions that lead into the box are thrown away, so that a ray is 0.1 off; 300
+// pixels of 16 rays or more leave 0.002 of their mean, and a pixel 0.03.
+TEST(Polish, WhitePolishVanishesInAnEvenSky) {
+    Scene scene;
+    scene.environment.sky = {1, 2, 0};
+    add_box(scene, Vec3(-1), Vec3(1), add_glossy(scene, Rgb(1), metal(0.25f)));
+    Studio studio(std::move(scene), fixed_size(Scheme::best, Aov::radiance));
+    studio.cycle.look_from(View({.eye = {3, 4, 5}, .target = {0, 0, 0}}, 32, 24));
+    studio.run(24);
+    const Image picture = studio.cycle.picture();
+    EXPECT_NE(picture.pixels, draw(studio.cycle.cache(), studio.cycle.id_map(), 1).pixels);
+    float worst = 0;
+    for (const Rgb& p : picture.pixels) {
+        worst = std::max({worst, std::abs(p.r - 1), std::abs(p.g / 2 - 1)});
+        EXPECT_EQ(p.b, 0);
+    }
+    EXPECT_LT(worst, 0.1f);
+    EXPECT_NEAR(mean_of(picture).r, 1, 0.005);
+}
+
 // Passes are decided by count where cycles have a fixed size.
 TEST(Polish, TheSameBitsOnAnyNumberOfThreads) {
     const auto picture = [](Scheme scheme, int threads) {
