@@ -86,7 +86,7 @@ TEST(Polish, ItsErrorFallsWithTheWorkWhileTheViewRests) {
 TEST(Polish, WhitePolishVanishesInAnEvenSky) {
     Scene scene;
     scene.environment.sky = {1, 2, 0};
-    add_box(scene, Vec3(-1), Vec3(1), add_glossy(scene, Rgb(1), metal(0.25f)));
+    add_box(scene, Vec3(-1), Vec3(1), add_glossy(scene, Rgb(1), metal(0.2f)));
     Studio studio(std::move(scene), fixed_size(Scheme::best, Aov::radiance));
     studio.cycle.look_from(View({.eye = {3, 4, 5}, .target = {0, 0, 0}}, 32, 24));
     studio.run(24);
