@@ -67,34 +67,19 @@ Rgb met_light(const Path& path, Rgb radiance, float pdf_light) {
 
 // Emission that these rays meet, and behind panes; the environment where they meet nothing.
 void settle_rays(const LitScene& lit, PathWave& wave, std::span<Rgb> sums) {
-    while (!wave.rays.empty()) {
-        wave.hits.resize(wave.rays.size());
-        lit.caster.intersect(wave.rays, wave.hits);
-        std::size_t left = 0;
-        for (std::size_t i = 0; i < wave.rays.size(); ++i) {
-            Ray ray = wave.rays[i];
-            Path path = wave.paths[i];
-            const Hit& hit = wave.hits[i];
-            const LitPlace from = {ray.origin, path.normal};
-            if (!hit) {
-                if (!lit.environment.empty())
-                    sums[path.slot] +=
-                        met_light(path, path.throughput * lit.environment.radiance(ray.direction),
-                                  lit.environment.pdf(from, ray.direction));
-                continue;
-            }
-            const Rgb radiance = path.throughput * emission(lit.scene, hit.point, hit.front);
-            if (max_component(radiance) > 0)
-                sums[path.slot] +=
-                    met_light(path, radiance, pdf_area_light(lit, from, ray.direction, hit));
-            path.throughput *= passed_straight(lit, hit, ray);
-            if (!(max_component(path.throughput) > 0)) continue;
-            wave.rays[left] = ray;
-            wave.paths[left++] = path;
-        }
-        wave.rays.resize(left);
-        wave.paths.resize(left);
-    }
+    const auto met = [&](const Path& path, const Ray& ray, const Hit& hit) {
+        const Rgb radiance = path.throughput * emission(lit.scene, hit.point, hit.front);
+        if (max_component(radiance) > 0)
+            sums[path.slot] += met_light(
+                path, radiance, pdf_area_light(lit, {ray.origin, path.normal}, ray.direction, hit));
+    };
+    const auto missed = [&](const Path& path, const Ray& ray) {
+        if (!lit.environment.empty())
+            sums[path.slot] +=
+                met_light(path, path.throughput * lit.environment.radiance(ray.direction),
+                          lit.environment.pdf({ray.origin, path.normal}, ray.direction));
+    };
+    cast_through_panes(lit, wave, met, missed);
 }
 
 // Lamps or suns, which no ray finds, chosen by `connect`.

@@ -62,27 +62,14 @@ void scatter_all(const LitScene& lit, PathWave& wave) {
 
 // What emits light that the rays meet, straight or behind panes.
 void settle_emission(const LitScene& lit, PathWave& wave, std::span<Rgb, kReplicates> sums) {
-    while (!wave.rays.empty()) {
-        wave.hits.resize(wave.rays.size());
-        lit.caster.intersect(wave.rays, wave.hits);
-        std::size_t left = 0;
-        for (std::size_t i = 0; i < wave.rays.size(); ++i) {
-            Path path = wave.paths[i];
-            Ray ray = wave.rays[i];
-            const Hit& hit = wave.hits[i];
-            if (!hit) {
-                sums[path.slot] += met_environment(lit, path, ray);
-                continue;
-            }
+    cast_through_panes(
+        lit, wave,
+        [&](const Path& path, const Ray& ray, const Hit& hit) {
             sums[path.slot] += met_emission(lit, path, ray, hit);
-            path.throughput *= passed_straight(lit, hit, ray);
-            if (!(max_component(path.throughput) > 0)) continue;
-            wave.paths[left] = path;
-            wave.rays[left++] = ray;
-        }
-        wave.paths.resize(left);
-        wave.rays.resize(left);
-    }
+        },
+        [&](const Path& path, const Ray& ray) {
+            sums[path.slot] += met_environment(lit, path, ray);
+        });
 }
 
 }  // namespace

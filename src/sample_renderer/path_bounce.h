@@ -29,6 +29,34 @@ Rgb passed_straight(const LitScene& lit, const Hit& hit, Ray& ray);
 /// what light samples compare with.
 void pass_pane(const Hit& hit, Ray& ray);
 
+/// Casts the rays of a wave that end at the first surface they meet, and those that panes let
+/// straight on again. Calls met(path, ray, hit) at each surface and missed(path, ray) where there
+/// is none; the wave is empty in the end.
+template <typename Met, typename Missed>
+void cast_through_panes(const LitScene& lit, PathWave& wave, const Met& met, const Missed& missed) {
+    while (!wave.rays.empty()) {
+        wave.hits.resize(wave.rays.size());
+        lit.caster.intersect(wave.rays, wave.hits);
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < wave.rays.size(); ++i) {
+            Path path = wave.paths[i];
+            Ray ray = wave.rays[i];
+            const Hit& hit = wave.hits[i];
+            if (!hit) {
+                missed(path, ray);
+                continue;
+            }
+            met(path, ray, hit);
+            path.throughput *= passed_straight(lit, hit, ray);
+            if (!(max_component(path.throughput) > 0)) continue;
+            wave.paths[left] = path;
+            wave.rays[left++] = ray;
+        }
+        wave.paths.resize(left);
+        wave.rays.resize(left);
+    }
+}
+
 /// Where a path is.
 struct Bounce {
     const LitScene& lit;
