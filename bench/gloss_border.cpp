@@ -114,7 +114,7 @@ Image picture(const Stage& stage, float cached, double seconds) {
     GatherRenderer renderer(stage.scene, stage.rays, stage.area_lights, &open_sides, 1);
     UpdateSettings settings;
     settings.cached_facets = cached;
-    UpdateCycle cycle(stage.rays, renderer, open_sides, settings);
+    UpdateCycle cycle(stage.rays, stage.graphs, renderer, open_sides, settings);
     const double start = processor_seconds();
     cycle.look_from(stage.view);
     while (processor_seconds() - start < seconds) cycle.run();

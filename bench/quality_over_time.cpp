@@ -113,7 +113,7 @@ nlohmann::json measure_cache(const Stage& stage, Scheme scheme, double seconds,
     Checkpoints checkpoints;
     double spent = 0;
     auto start = Clock::now();
-    UpdateCycle cycle(stage.rays, renderer, open_sides, settings);
+    UpdateCycle cycle(stage.rays, stage.graphs, renderer, open_sides, settings);
     cycle.look_from(stage.view);
     for (bool first = true; spent < seconds; first = false) {
         cycle.run();

@@ -78,7 +78,7 @@ int run(int argc, char** argv) {
     settings.threads = hardware_threads();
     settings.fixed_size = true;
     PathRenderer renderer(scene, rays, area_lights, &open_sides, settings.threads);
-    UpdateCycle cycle(rays, renderer, open_sides, settings);
+    UpdateCycle cycle(rays, graphs, renderer, open_sides, settings);
     cycle.look_from(View(choose_camera(scene, options), size.width, size.height));
     for (int i = 0; i < cycles; ++i) cycle.run();
 

@@ -85,10 +85,11 @@ int render_command(const Options& options) {
 
     const RayCaster rays(scene, settings.threads);
     const AreaLights area_lights(scene);
+    const MeshGraphs graphs(scene, coarser_levels(settings.scheme), settings.threads);
     OpenSides open_sides(scene);
     const auto renderer = make_renderer(renderer_name, scene, rays, area_lights, &open_sides,
                                         settings.threads, short_seed(options.seed));
-    UpdateCycle cycle(rays, *renderer, open_sides, settings);
+    UpdateCycle cycle(rays, graphs, *renderer, open_sides, settings);
     cycle.look_from(View(camera, size.width, size.height));
 
     catch_interrupts();

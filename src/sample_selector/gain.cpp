@@ -32,38 +32,64 @@ constexpr float kNewAcross = 1.5f;
 constexpr std::uint32_t kMostOfNew = 4096;
 constexpr std::uint32_t kMostSamples = 1u << 17;
 
-// What the corners say together.
-struct Corners {
+// What the vertices round a place say together: corners of a patch, parents of a vertex.
+struct Survey {
     float light = 0;        // mean luminance of all channels that hold what this one does
-    float picture = 0;      // mean luminance that the picture shows, on the curve's scale
     float low = kInfinity;  // range of the channel
     float high = -kInfinity;
     float surplus2 = 0;  // mean squared surplus of the channel
     float variance = 0;  // mean variance of the channel
     int buried = 0;
     int count = 0;
-};
 
-Corners survey(const ShadingCache& cache, const Patch& patch, int channel,
-               const PictureScale& scale) {
-    Corners c;
-    c.count = patch.corner_count();
-    c.buried = cache.buried_corners(patch);
-    const float part = 1.0f / static_cast<float>(c.count);
-    for (int i = 0; i < c.count; ++i) {
-        const VertexId v = patch.corners[i];
-        c.light += part * luminance(cache.shown_total(v, cache.shading(channel)).value);
-        c.picture += part * scale.shown(cache, patch, v);
+    void add(const ShadingCache& cache, VertexId v, int channel, float part) {
+        ++count;
+        buried += cache.vertex(v).buried ? 1 : 0;
+        light += part * luminance(cache.shown_total(v, cache.shading(channel)).value);
         const float value = luminance(cache.shown(v, channel).value);
-        c.low = std::min(c.low, value);
-        c.high = std::max(c.high, value);
+        low = std::min(low, value);
+        high = std::max(high, value);
         if (const Estimate* e = cache.estimate(v, channel); e && !cache.vertex(v).buried) {
             const float surplus = cache.surplus(v, channel);
-            c.surplus2 += part * surplus * surplus;
-            c.variance += part * e->variance;
+            surplus2 += part * surplus * surplus;
+            variance += part * e->variance;
         }
     }
-    return c;
+
+    // Squared error, in light, to expect between them.
+    float error2() const {
+        const float spread = high - low;
+        float sum = kSurplusNext * kSurplusNext * surplus2 +
+                    kRangeNext * kRangeNext * std::max(0.0f, spread * spread - 9 * variance);
+        if (buried > 0 && buried < count) sum += kContact * kContact * light * light;
+        return sum;
+    }
+};
+
+// Light to the scale on which errors are seen, linearised where the picture shows `picture` on it.
+float to_curve(const ShadingCache& cache, int channel, const PictureScale& scale,
+               std::uint8_t reflectance, float picture) {
+    const float to_picture =
+        cache.shading(channel) == Shading::glossy ? scale.exposure : scale.of(reflectance);
+    return comparison_slope(picture) * to_picture;
+}
+
+// The same at a vertex of the mesh.
+float to_curve(const ShadingCache& cache, VertexId vertex, int channel, const PictureScale& scale) {
+    const std::uint8_t reflectance = cache.reflectance(vertex);
+    const float picture =
+        scale.of(reflectance) * luminance(cache.shown_total(vertex).value) +
+        scale.exposure * luminance(cache.shown_total(vertex, Shading::glossy).value);
+    return to_curve(cache, channel, scale, reflectance, picture);
+}
+
+std::uint32_t samples_of_new(const ShadingCache& cache, std::span<const VertexId> around,
+                             int channel, const GainSettings& settings) {
+    std::uint32_t fewest = 0;
+    for (const VertexId vertex : around)
+        if (const Estimate* e = cache.estimate(vertex, channel))
+            fewest = fewest == 0 ? e->samples : std::min<std::uint32_t>(fewest, e->samples);
+    return std::clamp(fewest, settings.first_samples[channel], kMostOfNew);
 }
 
 }  // namespace
@@ -77,33 +103,29 @@ bool on_front(const ShadingCache& cache, PatchId id, int channel) {
 std::uint32_t samples_of_new(const ShadingCache& cache, PatchId id, int channel,
                              const GainSettings& settings) {
     const Patch& patch = cache.patch(id);
-    std::uint32_t fewest = 0;
-    for (int i = 0; i < patch.corner_count(); ++i)
-        if (const Estimate* e = cache.estimate(patch.corners[i], channel))
-            fewest = fewest == 0 ? e->samples : std::min<std::uint32_t>(fewest, e->samples);
-    return std::clamp(fewest, settings.first_samples[channel], kMostOfNew);
+    return samples_of_new(cache, std::span(patch.corners).first(patch.corner_count()), channel,
+                          settings);
 }
 
 Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings& settings) {
     const Patch& patch = cache.patch(id);
     const float pixels = cache.pixels(patch, channel);
     if (!(pixels > 0)) return {};
-    const Corners corners = survey(cache, patch, channel, settings.scale);
-
-    // Light to the scale on which errors are seen, linearised at the patch's mean.
-    const float to_picture = cache.shading(channel) == Shading::glossy ? settings.scale.exposure
-                                                                       : settings.scale.of(patch);
-    const float slope = comparison_slope(corners.picture) * to_picture;
+    Survey corners;
+    float picture = 0;
+    bool all_known = true;
+    const float part = 1.0f / static_cast<float>(patch.corner_count());
+    for (int i = 0; i < patch.corner_count(); ++i) {
+        corners.add(cache, patch.corners[i], channel, part);
+        picture += part * settings.scale.shown(cache, patch, patch.corners[i]);
+        all_known &= cache.evaluated(patch.corners[i], channel);
+    }
+    const float slope = to_curve(cache, channel, settings.scale, patch.reflectance, picture);
 
     Gain result;
-    if (patch.fragment_count > 1 && patch.divisible()) {
-        const float spread = corners.high - corners.low;
-        float error2 =
-            kSurplusNext * kSurplusNext * corners.surplus2 +
-            kRangeNext * kRangeNext * std::max(0.0f, spread * spread - 9 * corners.variance);
-        if (corners.buried > 0 && corners.buried < corners.count)
-            error2 += kContact * kContact * corners.light * corners.light;
-        float seen2 = error2 * slope * slope + settings.epsilon * settings.epsilon;
+    // Corners that are predicted from coarser levels come first (MeshFront).
+    if (all_known && patch.fragment_count > 1 && patch.divisible()) {
+        float seen2 = corners.error2() * slope * slope + settings.epsilon * settings.epsilon;
         if (corners.buried + 1 >= corners.count) seen2 += kUnseen * kUnseen;
         const bool across =
             patch.split == Split::quad_across_s || patch.split == Split::quad_across_t;
@@ -131,6 +153,39 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
         }
     }
     return result;
+}
+
+std::uint32_t samples_of_new(const ShadingCache& cache, VertexId vertex, int channel,
+                             const GainSettings& settings) {
+    return samples_of_new(cache, cache.vertex(vertex).known_parents(), channel, settings);
+}
+
+float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, float pixels,
+                    const GainSettings& settings) {
+    const CacheVertex& v = cache.vertex(vertex);
+    const auto parents = v.known_parents();
+    Survey survey;
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        if (!cache.evaluated(parents[i], channel)) return 0;
+        survey.add(cache, parents[i], channel, v.weight(i));
+    }
+    const float slope = to_curve(cache, vertex, channel, settings.scale);
+    float seen2 = settings.epsilon * settings.epsilon;
+    if (survey.count > 0) seen2 += survey.error2() * slope * slope;
+    // Nothing speaks for it.
+    if (survey.buried == survey.count) seen2 += kUnseen * kUnseen;
+    const float cost = static_cast<float>(samples_of_new(cache, parents, channel, settings)) *
+                       settings.seconds_a_sample[channel];
+    return seen2 * pixels / cost;
+}
+
+float gain_of_more(const ShadingCache& cache, VertexId vertex, int channel, float pixels,
+                   const GainSettings& settings) {
+    const Estimate* e = cache.estimate(vertex, channel);
+    if (!e || e->samples >= kMostSamples || cache.vertex(vertex).buried) return 0;
+    const float slope = to_curve(cache, vertex, channel, settings.scale);
+    const float cost = static_cast<float>(e->samples) * settings.seconds_a_sample[channel];
+    return e->variance * slope * slope * pixels / cost;
 }
 
 }  // namespace chiaro

@@ -42,4 +42,18 @@ std::uint32_t samples_of_new(const ShadingCache& cache, PatchId patch, int chann
 /// difference within the corners' standard error is noise, and asks for samples (section 8).
 Gain gain(const ShadingCache& cache, PatchId patch, int channel, const GainSettings& settings);
 
+/// Samples with which a vertex of the mesh starts: as many as the parents that predict it have,
+/// within the same limits.
+std::uint32_t samples_of_new(const ShadingCache& cache, VertexId vertex, int channel,
+                             const GainSettings& settings);
+
+/// Gain of evaluating a vertex of the mesh on which `pixels` weigh: what its parents' surplus and
+/// range predict. Zero while a parent is not evaluated itself, as coarse ones go first.
+float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, float pixels,
+                    const GainSettings& settings);
+
+/// Gain of as many samples again at an evaluated vertex of the mesh that speaks for `pixels`.
+float gain_of_more(const ShadingCache& cache, VertexId vertex, int channel, float pixels,
+                   const GainSettings& settings);
+
 }  // namespace chiaro

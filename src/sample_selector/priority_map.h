@@ -15,12 +15,14 @@ struct PictureScale {
     float exposure = 1;       // the picture's values to that scale
     bool irradiance = false;  // the picture shows irradiance itself (Aov::irradiance)
 
-    /// What multiplies the patch's irradiance; glossy radiance has the exposure alone.
-    float of(const Patch& patch) const {
+    /// What multiplies irradiance where the reflectance is that (Patch::reflectance); glossy
+    /// radiance has the exposure alone.
+    float of(std::uint8_t reflectance) const {
         if (irradiance) return exposure;
         // A black surface keeps a little weight: its texture may not be black all over.
-        return exposure * std::max<float>(patch.reflectance, 1) / 255.0f / kPi;
+        return exposure * std::max<float>(reflectance, 1) / 255.0f / kPi;
     }
+    float of(const Patch& patch) const { return of(patch.reflectance); }
 
     /// All light at a corner of the patch that the picture shows.
     Rgb color(const ShadingCache& cache, const Patch& patch, VertexId corner) const;

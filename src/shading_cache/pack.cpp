@@ -67,16 +67,17 @@ void ShadingCache::pack() {
             if (parent != VertexId::none) parent = new_vertex[index_of(parent)];
     for (PatchId& root : roots_)
         if (root != PatchId::none) root = new_patch[index_of(root)];
-    std::erase_if(welded_, [&](const auto& e) { return !vertex_kept[index_of(e.second)]; });
-    for (auto& [key, id] : welded_) id = new_vertex[index_of(id)];
+    for (VertexId& id : mesh_vertices_)
+        if (id != VertexId::none) id = new_vertex[index_of(id)];
 
     pack_channels(vertex_kept);
     keep_only(patches_, patch_kept);
     keep_only(vertices_, vertex_kept);
+    keep_only(changed_, vertex_kept);
+    first_changed_ = 0;
     edges_.clear();
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
-        const auto& parents = vertices_[i].parents;
-        if (parents[1] != VertexId::none && parents[2] == VertexId::none)
+        if (!vertices_[i].of_mesh && vertices_[i].known_parents().size() == 2)
             edges_.insert(static_cast<VertexId>(i), vertices_);
     }
 }

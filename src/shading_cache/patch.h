@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace chiaro {
 
@@ -56,19 +57,29 @@ struct Patch {
 
 /// A surface point with 0 to 4 weighted parents, from whose values its own is predicted. Below the
 /// mesh these are the ends of the edge it halves or the corners of the quad it centres; a corner of
-/// the mesh has none (or vertices of a coarser level). Parents come earlier in the array than their
-/// children, so that one pass in order carries values from coarse to fine.
+/// the mesh has vertices of a coarser level (mesh_graph.h), or none. Parents come earlier in the
+/// array than their children, so that one pass in order carries values from coarse to fine.
 struct CacheVertex {
     static constexpr int kFullWeight = 128;  // weights are multiples of 1/128
 
     std::array<VertexId, 4> parents = {VertexId::none, VertexId::none, VertexId::none,
                                        VertexId::none};
     std::array<std::uint8_t, 4> weights = {0, 0, 0, 0};
-    std::uint32_t surface_side : 29 = 0;  // of the root on which it was made
+    std::uint32_t surface_side : 28 = 0;  // of the root on which it is sampled
+    std::uint32_t of_mesh : 1 = 0;        // a corner of the mesh, not made by dividing patches
     std::uint32_t exposed : 1 = 0;        // it was seen not to be buried, whatever rays met
     std::uint32_t buried : 1 = 0;  // most rays from it met the inside of a solid: it knows no light
     std::uint32_t hollow : 1 = 0;  // no parent does either: it leaves the interpolation
     Vec2 uv = Vec2(0);  // where it is sampled: pulled in from the patch's border by 0.2 %
+
+    /// Those of `parents` that there are.
+    std::span<const VertexId> known_parents() const {
+        std::size_t count = 0;
+        while (count < parents.size() && parents[count] != VertexId::none) ++count;
+        return std::span(parents).first(count);
+    }
+    /// Share of parent i in the prediction, in [0, 1].
+    float weight(std::size_t i) const { return static_cast<float>(weights[i]) / kFullWeight; }
 };
 
 /// What is known of one channel at one vertex; 20 bytes, as there are many.

@@ -4,66 +4,40 @@
 #include "base/rgb9e5.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace chiaro {
 namespace {
-
-// How far a sample point is pulled from its patch's border toward the centre, as a part of the
-// patch: on the border itself half the hemisphere may lie in an adjoining wall.
-constexpr float kPull = 0.002f;
-
-// Mesh corners are one vertex where their normals are within this of each other. Faces without
-// normals of their own are flat, as the file says, and stay apart at any visible crease.
-constexpr float kSmoothCosine = 0.9613f;  // 16 degrees
-constexpr float kFlatCosine = 0.9998f;    // 1 degree
 
 // Patches longer than this, in units of their width, are halved across.
 constexpr float kLong = 1.5f;
 
 }  // namespace
 
-ShadingCache::ShadingCache(const Scene& scene, Channels channels, SplitRule rule)
-    : scene_(&scene), rule_(rule), irradiance_channels_(channels.irradiance) {
+ShadingCache::ShadingCache(const Scene& scene, const MeshGraphs& graphs, Channels channels,
+                           SplitRule rule)
+    : scene_(&scene), graphs_(&graphs), rule_(rule), irradiance_channels_(channels.irradiance) {
     const int total = channels.irradiance + channels.glossy;
     check(channels.irradiance >= 1 && channels.glossy >= 0 && total <= 8,
           "ShadingCache: 1 to 8 channels");
-    std::uint32_t count = 0;
+    std::size_t primitives = 0, vertices = 0;
     for (const Object& object : scene.objects) {
-        first_primitive_.push_back(count);
-        count += static_cast<std::uint32_t>(scene.mesh_of(object).primitives.size());
+        first_primitive_.push_back(static_cast<std::uint32_t>(primitives));
+        first_mesh_vertex_.push_back(static_cast<std::uint32_t>(vertices));
+        primitives += scene.mesh_of(object).primitives.size();
+        vertices += graphs.of(object.mesh).vertex_count();
     }
+    check(2 * std::max(primitives, vertices) <= std::size_t{1} << 28,
+          "ShadingCache: more primitives than ids");
     for (const Material& material : scene.materials) {
         const float y = std::clamp(luminance(mean_reflectance(scene, material)), 0.0f, 1.0f);
         reflectances_.push_back(static_cast<std::uint8_t>(std::lround(255 * y)));
     }
-    roots_.assign(2 * static_cast<std::size_t>(count), PatchId::none);
-    check(roots_.size() <= std::size_t{1} << 29, "ShadingCache: more primitives than ids");
+    roots_.assign(2 * primitives, PatchId::none);
+    mesh_vertices_.assign(2 * vertices, VertexId::none);
     slots_.resize(total);
     estimates_.resize(total);
     shown_.resize(total);
-}
-
-PatchId ShadingCache::root(ObjectId object, std::uint32_t primitive, bool front) {
-    const std::uint32_t side =
-        2 * (first_primitive_[index_of(object)] + primitive) + (front ? 0 : 1);
-    PatchId& id = roots_[side];
-    if (id != PatchId::none) return id;
-    id = static_cast<PatchId>(patches_.size());
-
-    const Primitive& p = scene_->mesh_of(scene_->objects[index_of(object)]).primitives[primitive];
-    Patch patch;
-    patch.corners.fill(VertexId::none);
-    patch.parent = side;
-    patch.reflectance = reflectances_[index_of(p.material)];
-    append(patches_, patch);
-    const int corners = p.corner_count();
-    // add_vertex() reads the patch's kind from its fourth corner.
-    if (corners == 4) patches_.back().corners[3] = VertexId{0};
-    for (int c = 0; c < corners; ++c)
-        patches_.back().corners[c] = corner_vertex(object, primitive, c, side);
-    return id;
 }
 
 PatchId ShadingCache::subdivide(PatchId leaf) {
@@ -144,16 +118,19 @@ VertexId ShadingCache::edge_midpoint(PatchId id, Node node) {
 // A vertex at a local point of a patch, whose value its parents predict in equal parts until it is
 // evaluated.
 VertexId ShadingCache::add_vertex(PatchId id, Vec2 local, std::span<const VertexId> parents) {
-    const bool quad = patch(id).is_quad();
-    const Vec2 centre = quad ? Vec2(0.5f) : Vec2(1.0f / 3);
     CacheVertex vertex;
-    vertex.surface_side = surface_side(id) & 0x1fff'ffffU;
-    vertex.uv = surface_uv(id, glm::mix(local, centre, kPull));
+    vertex.surface_side = surface_side(id) & 0xfff'ffffU;
+    vertex.uv = surface_uv(id, pulled_in(patch(id).is_quad(), local));
     for (std::size_t i = 0; i < parents.size(); ++i) {
         vertex.parents[i] = parents[i];
         vertex.weights[i] = static_cast<std::uint8_t>(CacheVertex::kFullWeight / parents.size());
     }
+    return add_vertex(vertex);
+}
+
+VertexId ShadingCache::add_vertex(const CacheVertex& vertex) {
     append(vertices_, vertex);
+    append(changed_, std::uint8_t{0});
     const auto made = static_cast<VertexId>(vertices_.size() - 1);
     for (int c = 0; c < channels(); ++c) {
         append(slots_[c], kNoSlot);
@@ -161,43 +138,6 @@ VertexId ShadingCache::add_vertex(PatchId id, Vec2 local, std::span<const Vertex
     }
     resolve_vertex(made);
     return made;
-}
-
-// Corners of the mesh are shared across the primitives of an object where place, material, side and
-// normal agree.
-VertexId ShadingCache::corner_vertex(ObjectId object, std::uint32_t primitive, int corner,
-                                     std::uint32_t side) {
-    const Mesh& mesh = scene_->mesh_of(scene_->objects[index_of(object)]);
-    const Primitive& p = mesh.primitives[primitive];
-    const Vec3 position = mesh.positions[p.corners[corner]] + 0.0f;  // -0 becomes 0
-    const auto material = static_cast<std::uint32_t>(p.material);
-    std::uint64_t key = hash32(static_cast<std::uint32_t>(object), 2 * material + (side & 1));
-    for (int i = 0; i < 3; ++i) {
-        const std::uint32_t bits = std::bit_cast<std::uint32_t>(position[i]);
-        key = key * 0x9e3779b97f4a7c15ULL + hash32(bits, static_cast<std::uint32_t>(i));
-        key ^= key >> 29;
-    }
-
-    const auto normal_at = [&](VertexId v) {
-        return surface_geometry(*scene_, surface_point(v)).shading_normal;
-    };
-    const VertexId made_so_far = static_cast<VertexId>(vertices_.size());
-    const VertexId candidate = add_vertex(roots_[side], node_place(p.is_quad(), Node(corner)), {});
-    const Vec3 normal = normal_at(candidate);
-    const float cosine = mesh.normals.empty() ? kFlatCosine : kSmoothCosine;
-    const auto [first, last] = welded_.equal_range(key);
-    for (auto it = first; it != last; ++it) {
-        if (glm::dot(normal_at(it->second), normal) < cosine) continue;
-        // The corner is there already: take the candidate back.
-        vertices_.pop_back();
-        for (int c = 0; c < channels(); ++c) {
-            slots_[c].pop_back();
-            shown_[c].pop_back();
-        }
-        return it->second;
-    }
-    welded_.emplace(key, made_so_far);
-    return made_so_far;
 }
 
 std::optional<VertexId> ShadingCache::midpoint(VertexId a, VertexId b) const {
@@ -234,6 +174,10 @@ SurfacePoint ShadingCache::surface_point(VertexId id) const {
     return place(vertex(id).surface_side, vertex(id).uv);
 }
 
+std::uint8_t ShadingCache::reflectance(VertexId id) const {
+    return reflectances_[index_of(material_of(*scene_, surface_point(id)))];
+}
+
 const Estimate* ShadingCache::estimate(VertexId vertex, int channel) const {
     const std::uint32_t slot = slots_[channel][index_of(vertex)];
     return slot == kNoSlot ? nullptr : &estimates_[channel][slot];
@@ -244,8 +188,8 @@ std::size_t ShadingCache::bytes() const {
         return array.capacity() * sizeof(typename std::decay_t<decltype(array)>::value_type);
     };
     std::size_t total = held(roots_) + held(first_primitive_) + held(patches_) + held(vertices_) +
-                        edges_.bytes() +
-                        welded_.size() * (sizeof(std::uint64_t) + 4 + 2 * sizeof(void*));
+                        held(first_mesh_vertex_) + held(mesh_vertices_) + held(changed_) +
+                        edges_.bytes();
     for (int c = 0; c < channels(); ++c)
         total += held(slots_[c]) + held(estimates_[c]) + held(shown_[c]);
     return total;

@@ -5,11 +5,11 @@
 
 #include "scene/surface.h"
 #include "shading_cache/edge_table.h"
+#include "shading_cache/mesh_graph.h"
 #include "shading_cache/patch.h"
 
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 namespace chiaro {
@@ -40,9 +40,9 @@ struct Shown {
 /// Ids: stay valid until pack() moves what they name.
 class ShadingCache {
 public:
-    /// No patches yet: roots are made when first asked for. `scene` must outlive the cache.
-    /// Checks: 1 to 8 channels.
-    ShadingCache(const Scene& scene, Channels channels, SplitRule rule);
+    /// No patches yet: roots are made when first asked for. `scene` and `graphs`, of its meshes,
+    /// must outlive the cache. Checks: 1 to 8 channels.
+    ShadingCache(const Scene& scene, const MeshGraphs& graphs, Channels channels, SplitRule rule);
 
     int channels() const { return static_cast<int>(estimates_.size()); }
     /// What a channel holds.
@@ -59,7 +59,7 @@ public:
     const CacheVertex& vertex(VertexId id) const { return vertices_[index_of(id)]; }
 
     /// The root patch on one side of a primitive; made, unshaded, when first asked for (3:
-    /// "evaluated lazily").
+    /// "evaluated lazily"), and so are its corners and all vertices above these.
     PatchId root(ObjectId object, std::uint32_t primitive, bool front);
 
     /// Divides `leaf` and returns the first child. Midpoints that a neighbour has made already are
@@ -83,6 +83,10 @@ public:
     /// Where a vertex is sampled, and on which side.
     SurfacePoint surface_point(VertexId vertex) const;
     bool on_front(VertexId vertex) const { return (this->vertex(vertex).surface_side & 1) == 0; }
+    /// Mean luminance of the base colour there, 255 is 1.
+    std::uint8_t reflectance(VertexId vertex) const;
+    /// The coarsest level that a vertex of the mesh stands for (MeshGraph); 0 for all others.
+    int level(VertexId vertex) const;
 
     /// Estimate of a channel at a vertex, if it was evaluated there.
     const Estimate* estimate(VertexId vertex, int channel) const;
@@ -91,6 +95,10 @@ public:
     /// By how much the vertex's estimate missed its prediction (luminance); where there was none, a
     /// part of all light there. Checks: evaluated.
     float surplus(VertexId vertex, int channel) const;
+
+    /// Raises a vertex's surplus to at least `luminance`: its children were found to differ more
+    /// than it would tell. Checks: evaluated.
+    void suspect(VertexId vertex, int channel, float luminance);
 
     /// Merges `samples` further samples with their `mean` and the luminance variance of that mean.
     /// The first time, notes the surplus over the parents' prediction. Checks: finite, samples > 0.
@@ -120,23 +128,32 @@ public:
     /// Gives up all that glossy channels hold, as the eye has moved, and their refinement.
     void forget_glossy();
 
-    /// Carries values from coarse to fine through the whole graph. store() resolves its own vertex;
-    /// this brings what depends on it up to date.
+    /// Carries values from coarse to fine. store() resolves its own vertex; this brings what
+    /// depends on it up to date: 1 to 2 ns for each vertex after the first that changed, and more
+    /// only for those whose parents did.
     void resolve();
+    /// Whether a vertex's value or estimate in a channel has changed since forget_changes().
+    bool changed(VertexId vertex, int channel) const {
+        return changed_[index_of(vertex)] >> channel & 1;
+    }
+    void forget_changes();
 
     /// Bytes that the cache's arrays and tables hold, unused capacity included.
     std::size_t bytes() const;
 
 private:
-    VertexId corner_vertex(ObjectId object, std::uint32_t primitive, int corner,
-                           std::uint32_t side);
+    struct MeshPlace;
+    MeshPlace mesh_place(std::uint32_t surface_side) const;
+    VertexId mesh_vertex(const MeshPlace& place, MeshVertexId vertex, MeshCorner sampled_at);
     VertexId edge_midpoint(PatchId patch, Node node);
     VertexId node_vertex(PatchId patch, Node node);
     VertexId add_vertex(PatchId patch, Vec2 local, std::span<const VertexId> parents);
+    VertexId add_vertex(const CacheVertex& vertex);
     Split choose_split(PatchId leaf) const;
     std::optional<Rgb> predicted(const CacheVertex& vertex, int channel) const;
     void resolve_hollow(VertexId vertex);
     float first_surplus(VertexId vertex, int channel, Rgb mean, float variance) const;
+    void note_change(VertexId vertex, int channel);
     void resolve_vertex(VertexId vertex, int channel);
     void resolve_vertex(VertexId vertex);
     void show(VertexId vertex, int channel, Rgb value);
@@ -144,21 +161,28 @@ private:
     void pack_channels(const std::vector<char>& vertex_kept);
 
     const Scene* scene_;
+    const MeshGraphs* graphs_;
     SplitRule rule_;
     int irradiance_channels_;
-    std::vector<std::uint32_t> first_primitive_;  // of each object, in one count over all
-    std::vector<std::uint8_t> reflectances_;      // of each material, as Patch::reflectance
-    std::vector<PatchId> roots_;                  // by surface side: 2 x primitive + (back ? 1 : 0)
+    std::vector<std::uint32_t> first_primitive_;    // of each object, in one count over all
+    std::vector<std::uint32_t> first_mesh_vertex_;  // likewise
+    std::vector<std::uint8_t> reflectances_;        // of each material, as Patch::reflectance
+    std::vector<PatchId> roots_;           // by surface side: 2 x primitive + (back ? 1 : 0)
+    std::vector<VertexId> mesh_vertices_;  // 2 x vertex + (back ? 1 : 0); none until first needed
     std::vector<Patch> patches_;
     std::vector<CacheVertex> vertices_;
     EdgeTable edges_;
-    std::unordered_multimap<std::uint64_t, VertexId> welded_;  // mesh corners by place
 
     static constexpr std::uint32_t kNoSlot = 0xffff'ffff;
     std::vector<std::vector<std::uint32_t>> slots_;  // a channel: vertex to estimate, or kNoSlot
     std::vector<std::vector<Estimate>> estimates_;   // a channel: only what was evaluated
     std::vector<std::vector<std::uint32_t>> shown_;  // a channel: RGB9E5 by vertex, in shown_unit_
     float shown_unit_ = 0x1p-60f;  // a power of two; raised when something brighter comes
+
+    static constexpr std::size_t kNothing = ~std::size_t{0};
+    static constexpr std::uint8_t kAllChannels = 0xff;
+    std::vector<std::uint8_t> changed_;     // by vertex: bit c, in channel c
+    std::size_t first_changed_ = kNothing;  // no vertex before it has changed
 };
 
 /// Appends with capacity growing by a 32nd: memory is part of what we promise.

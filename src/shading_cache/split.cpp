@@ -120,4 +120,9 @@ Vec2 node_place(bool quad, Node node) {
     return quad ? on_quad[node] : on_triangle[node];
 }
 
+Vec2 pulled_in(bool quad, Vec2 local) {
+    constexpr float kPull = 0.002f;
+    return glm::mix(local, quad ? Vec2(0.5f) : Vec2(1.0f / 3), kPull);
+}
+
 }  // namespace chiaro

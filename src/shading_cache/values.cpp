@@ -34,6 +34,7 @@ void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std
     }
     resolve_hollow(id);
     resolve_vertex(id, channel);
+    note_change(id, channel);  // its variance and surplus are news even where its value is not
 }
 
 // By how much the prediction missed the first estimate, beyond what its noise explains. A vertex
@@ -45,12 +46,13 @@ float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float vari
     const float miss = luminance(mean) - luminance(*prediction);
     float inherited = 0;
     float noise = variance;
-    for (int i = 0; i < 4 && vertex(id).parents[i] != VertexId::none; ++i) {
-        const Estimate* e = estimate(vertex(id).parents[i], channel);
+    const auto parents = vertex(id).known_parents();
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        const Estimate* e = estimate(parents[i], channel);
         if (!e) continue;
-        const float weight = static_cast<float>(vertex(id).weights[i]) / CacheVertex::kFullWeight;
+        const float weight = vertex(id).weight(i);
         noise += weight * weight * e->variance;
-        inherited = std::max(inherited, surplus(vertex(id).parents[i], channel));
+        inherited = std::max(inherited, surplus(parents[i], channel));
     }
     const float own = std::sqrt(std::max(0.0f, miss * miss - 3 * noise));
     return std::max(own, inherited / 16);
@@ -63,6 +65,13 @@ float ShadingCache::surplus(VertexId id, int channel) const {
     check(e != nullptr, "surplus: the vertex was not evaluated");
     if (e->surplus != Estimate::kUnknown) return e->surplus;
     return kPartUnknown * luminance(shown_total(id, shading(channel)).value);
+}
+
+void ShadingCache::suspect(VertexId id, int channel, float luminance) {
+    Estimate& e = estimates_[channel][slots_[channel][index_of(id)]];
+    if (luminance <= surplus(id, channel)) return;
+    e.surplus = luminance;
+    note_change(id, channel);
 }
 
 void ShadingCache::mark_buried(VertexId id) {
@@ -119,22 +128,26 @@ void ShadingCache::forget_glossy() {
             patch.refined_channels &= static_cast<std::uint8_t>(~(1u << c));
     }
     for (std::size_t i = 0; i < vertices_.size(); ++i) resolve_hollow(static_cast<VertexId>(i));
+    first_changed_ = 0;
+    std::fill(changed_.begin(), changed_.end(), kAllChannels);
 }
 
 // The parents' weighted mean, hollow ones left out; nothing if none is left.
 std::optional<Rgb> ShadingCache::predicted(const CacheVertex& v, int channel) const {
     Rgb sum(0);
     int weight = 0;
-    for (int i = 0; i < 4 && v.parents[i] != VertexId::none; ++i) {
-        if (vertex(v.parents[i]).hollow) continue;
-        sum += static_cast<float>(v.weights[i]) *
-               unpack_rgb9e5(shown_[channel][index_of(v.parents[i])]);
+    const auto parents = v.known_parents();
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        if (vertex(parents[i]).hollow) continue;
+        sum +=
+            static_cast<float>(v.weights[i]) * unpack_rgb9e5(shown_[channel][index_of(parents[i])]);
         weight += v.weights[i];
     }
     if (weight == 0) return std::nullopt;
     return sum * (shown_unit_ / static_cast<float>(weight));
 }
 
+// Takes the channel's value from where it now comes.
 void ShadingCache::resolve_vertex(VertexId id, int channel) {
     const CacheVertex& v = vertex(id);
     const Estimate* e = v.buried ? nullptr : estimate(id, channel);
@@ -154,16 +167,27 @@ void ShadingCache::show(VertexId id, int channel, Rgb value) {
                 bits = pack_rgb9e5(unpack_rgb9e5(bits) * (shown_unit_ / unit));
         shown_unit_ = unit;
     }
-    shown_[channel][index_of(id)] = pack_rgb9e5(value / shown_unit_);
+    std::uint32_t& bits = shown_[channel][index_of(id)];
+    const std::uint32_t new_bits = pack_rgb9e5(value / shown_unit_);
+    if (bits == new_bits) return;
+    bits = new_bits;
+    note_change(id, channel);
+}
+
+void ShadingCache::note_change(VertexId id, int channel) {
+    changed_[index_of(id)] |= static_cast<std::uint8_t>(1u << channel);
+    first_changed_ = std::min(first_changed_, index_of(id));
 }
 
 void ShadingCache::resolve_hollow(VertexId id) {
     CacheVertex& v = vertices_[index_of(id)];
     bool knows = false;
     for (int c = 0; c < channels() && !v.buried; ++c) knows |= evaluated(id, c);
-    for (int i = 0; i < 4 && v.parents[i] != VertexId::none; ++i)
-        knows |= !vertex(v.parents[i]).hollow;
+    for (const VertexId parent : v.known_parents()) knows |= !vertex(parent).hollow;
+    if (v.hollow == (knows ? 0 : 1)) return;
     v.hollow = knows ? 0 : 1;
+    // What it is left out of, or comes into, is all that its children show.
+    for (int c = 0; c < channels(); ++c) note_change(id, c);
 }
 
 void ShadingCache::resolve_vertex(VertexId id) {
@@ -173,7 +197,23 @@ void ShadingCache::resolve_vertex(VertexId id) {
 
 void ShadingCache::resolve() {
     // Parents come earlier in the array than their children, so one pass is enough.
-    for (std::size_t i = 0; i < vertices_.size(); ++i) resolve_vertex(static_cast<VertexId>(i));
+    for (std::size_t i = first_changed_; i < vertices_.size(); ++i) {
+        std::uint8_t news = 0;
+        for (const VertexId parent : vertices_[i].known_parents())
+            news |= changed_[index_of(parent)];
+        if (news == 0) continue;
+        const auto id = static_cast<VertexId>(i);
+        resolve_hollow(id);
+        for (int c = 0; c < channels(); ++c)
+            if (news >> c & 1 && (vertices_[i].buried || !evaluated(id, c))) resolve_vertex(id, c);
+    }
+}
+
+void ShadingCache::forget_changes() {
+    if (first_changed_ < changed_.size())
+        std::fill(changed_.begin() + static_cast<std::ptrdiff_t>(first_changed_), changed_.end(),
+                  std::uint8_t{0});
+    first_changed_ = kNothing;
 }
 
 }  // namespace chiaro

@@ -13,11 +13,15 @@ namespace {
 // Equation 1's epsilon: the part of the choices that priorities have no say in.
 constexpr float kChance = 0.03f;
 
+// Vertices for each point that is shaded between two looks at what changed.
+constexpr std::size_t kPointsARefresh = 16;
+
 }  // namespace
 
 void UpdateCycle::refine() {
     ShadeWork work = new_work();
     touched_.clear();
+    touched_vertices_.clear();
     choose(work);
     shade(work);
     {
@@ -26,10 +30,13 @@ void UpdateCycle::refine() {
             expose_if_seen(cache_, patch);
             front_[channel].set(index_of(patch), front_gain(patch, channel));
         }
+        for (const auto& [vertex, channel] : touched_vertices_)
+            mesh_front_.reckon(cache_, vertex, channel, gains_);
     }
-    // Neighbours of what was shaded learn of it here. Waiting for a fifth of the vertices keeps
-    // this pass over everything a small part of the whole.
-    if (points_since_refresh_ * 5 > cache_.vertices().size()) refresh();
+    // Neighbours of what was shaded learn of it here. Waiting for a part of the vertices keeps
+    // this look at everything a small part of the whole.
+    if (points_since_refresh_ * kPointsARefresh > cache_.vertices().size())
+        refresh(Extent::what_changed);
 }
 
 double UpdateCycle::seconds_budget() const {
@@ -53,10 +60,12 @@ void UpdateCycle::choose(ShadeWork& work) {
             spend_by_chance(work);
             continue;
         }
-        PatchId patch = PatchId::none;
-        int channel = 0;
-        if (!draw_patch(patch, channel)) break;
-        spend_on(patch, channel, work);
+        const std::optional<Choice> choice = draw_choice();
+        if (!choice) break;
+        if (choice->patch != PatchId::none)
+            spend_on(choice->patch, choice->channel, work);
+        else
+            spend_on(choice->vertex, choice->channel, work);
     }
 }
 
@@ -68,6 +77,13 @@ void UpdateCycle::spend_by_chance(ShadeWork& work) {
     const PatchId id = front_patch_at(below(map_.first_of_pixel.size() - 1), channel);
     if (id == PatchId::none) return;
     const Patch& patch = cache_.patch(id);
+    const int first = static_cast<int>(below(patch.corner_count()));
+    for (int i = 0; i < patch.corner_count(); ++i) {
+        const VertexId corner = patch.corners[(first + i) % patch.corner_count()];
+        if (cache_.evaluated(corner, channel)) continue;
+        spend_on(corner, channel, work);
+        return;
+    }
     if (rng_.below(2) == 0) {
         work.resample(cache_, patch.corners[below(patch.corner_count())], channel);
         touched_.emplace_back(id, channel);
@@ -77,18 +93,25 @@ void UpdateCycle::spend_by_chance(ShadeWork& work) {
     }
 }
 
-bool UpdateCycle::draw_patch(PatchId& patch, int& channel) {
+std::optional<UpdateCycle::Choice> UpdateCycle::draw_choice() {
     double total = 0;
-    for (const SumTree& tree : front_) total += tree.total();
-    if (!(total > 0)) return false;
+    for (int c = 0; c < cache_.channels(); ++c) total += front_[c].total() + mesh_front_.total(c);
     double rest = rng_.uniform() * total;
-    for (channel = 0; channel + 1 < cache_.channels(); ++channel) {
-        if (rest < front_[channel].total()) break;
-        rest -= front_[channel].total();
+    std::optional<Choice> choice;
+    for (int c = 0; c < cache_.channels() && rest >= 0; ++c) {
+        if (front_[c].total() > 0) choice = Choice{.channel = c, .patch = PatchId{0}};
+        rest -= front_[c].total();
+        if (rest < 0) break;
+        if (mesh_front_.total(c) > 0) choice = Choice{.channel = c, .vertex = VertexId{0}};
+        rest -= mesh_front_.total(c);
     }
-    if (!(front_[channel].total() > 0)) return false;
-    patch = static_cast<PatchId>(front_[channel].draw(rng_.uniform()));
-    return true;
+    if (!choice) return choice;
+    const float u = rng_.uniform();
+    if (choice->patch != PatchId::none)
+        choice->patch = static_cast<PatchId>(front_[choice->channel].draw(u));
+    else
+        choice->vertex = mesh_front_.draw(choice->channel, u);
+    return choice;
 }
 
 // The front's patch in a channel below a pixel; none where the channel lights nothing.
@@ -112,6 +135,16 @@ void UpdateCycle::spend_on(PatchId id, int channel, ShadeWork& work) {
         return;
     }
     if (g.refine > 0) divide(id, channel, work);
+}
+
+// Evaluates a vertex of a mesh, or samples again one that speaks for others.
+void UpdateCycle::spend_on(VertexId id, int channel, ShadeWork& work) {
+    mesh_front_.rest(id, channel);
+    if (cache_.evaluated(id, channel))
+        work.resample(cache_, id, channel);
+    else
+        work.evaluate(cache_, id, channel, samples_of_new(cache_, id, channel, gains_));
+    touched_vertices_.emplace_back(id, channel);
 }
 
 // Refines a channel in a patch of its front: divides the patch if nobody has yet, and asks for the
@@ -139,26 +172,49 @@ float UpdateCycle::front_gain(PatchId id, int channel) const {
     return gain(cache_, id, channel, gains_).best();
 }
 
-void UpdateCycle::refresh() {
+bool UpdateCycle::front_changed(PatchId id, int channel) const {
+    const Patch& patch = cache_.patch(id);
+    for (int i = 0; i < patch.corner_count(); ++i)
+        if (cache_.changed(patch.corners[i], channel)) return true;
+    return false;
+}
+
+// Carries what is known from coarse to fine and reckons the gains that it concerns.
+void UpdateCycle::refresh(Extent extent) {
     {
         const StepTimer timer(statistics_.timings, Step::update_display_meshes);
         cache_.resolve();
     }
     points_since_refresh_ = 0;
-    if (statistics_.points_shaded > 2 * points_at_exposure_) estimate_exposure();
-    if (settings_.scheme == Scheme::paper) return;
-    const StepTimer timer(statistics_.timings, Step::sample_selection);
-    for (int c = 0; c < cache_.channels(); ++c) {
-        std::vector<float> gains(cache_.patches().size(), 0.0f);
-        constexpr std::size_t kBlock = 1024;
-        parallel_for(settings_.threads, (gains.size() + kBlock - 1) / kBlock,
-                     [&](std::size_t block) {
-                         const std::size_t last = std::min(gains.size(), (block + 1) * kBlock);
-                         for (std::size_t i = block * kBlock; i < last; ++i)
-                             gains[i] = front_gain(static_cast<PatchId>(i), c);
-                     });
-        front_[c].assign(gains);
+    if (statistics_.points_shaded > 2 * points_at_exposure_) {
+        estimate_exposure();
+        extent = Extent::everything;
     }
+    if (settings_.scheme == Scheme::best) {
+        const StepTimer timer(statistics_.timings, Step::sample_selection);
+        for (int c = 0; c < cache_.channels(); ++c) reckon_front(c, extent);
+        if (extent == Extent::everything)
+            mesh_front_.reckon(cache_, gains_);
+        else
+            mesh_front_.reckon_changed(cache_, gains_);
+    }
+    cache_.forget_changes();
+}
+
+void UpdateCycle::reckon_front(int channel, Extent extent) {
+    const SumTree& known = front_[channel];
+    std::vector<float> gains(cache_.patches().size(), 0.0f);
+    constexpr std::size_t kBlock = 1024;
+    parallel_for(settings_.threads, (gains.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+        const std::size_t last = std::min(gains.size(), (block + 1) * kBlock);
+        for (std::size_t i = block * kBlock; i < last; ++i) {
+            const auto id = static_cast<PatchId>(i);
+            const bool as_before =
+                extent == Extent::what_changed && i < known.size() && !front_changed(id, channel);
+            gains[i] = as_before ? known.weight(i) : front_gain(id, channel);
+        }
+    });
+    front_[channel].assign(gains);
 }
 
 }  // namespace chiaro

@@ -4,6 +4,7 @@
 #include "sample_renderer/sample_renderer.h"
 #include "shading_cache/shading_cache.h"
 
+#include <span>
 #include <unordered_set>
 #include <vector>
 
@@ -36,6 +37,8 @@ public:
     bool resample(const ShadingCache& cache, VertexId vertex, int channel);
 
     std::size_t points() const;
+    /// The vertices asked for in a channel.
+    std::span<const VertexId> vertices(int channel) const { return channels_[channel].vertices; }
     /// Samples asked for of a channel.
     std::size_t samples(int channel) const { return channels_[channel].samples; }
 

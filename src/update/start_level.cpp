@@ -2,6 +2,7 @@
 
 #include "sample_selector/gain.h"
 
+#include <algorithm>
 #include <queue>
 
 namespace chiaro {
@@ -22,9 +23,41 @@ struct Large {
     }
 };
 
+// Meshes may have this many times the vertices that the first picture can pay and still start as
+// they are: fine detail is worth a longer wait than its loss (docs/overview.md).
+constexpr double kPatience = 1;
+
 }  // namespace
 
-void even_out(ShadingCache& cache, IdMap& map, int channel, std::size_t vertex_budget, Cycle now) {
+StartLevel choose_start_level(const ShadingCache& cache, const MeshFront& mesh, int channel,
+                              std::size_t fewest, std::size_t most) {
+    std::vector<float> roots;
+    double total = 0;
+    for (const Patch& p : cache.patches()) {
+        const float pixels = p.is_root() ? cache.pixels(p, channel) : 0;
+        if (!(pixels > 0)) continue;
+        roots.push_back(pixels);
+        total += pixels;
+    }
+    const auto counts = mesh.count_by_level(cache.shading(channel));
+    if (static_cast<double>(counts[0]) <= kPatience * static_cast<double>(most)) return {0, fewest};
+
+    for (int level = 1; level + 1 < MeshFront::kLevels; ++level) {
+        if (counts[level] > most) continue;
+        // What patches that are larger than a vertex's part of the view are to be divided into.
+        const double part = total / std::max<double>(1, static_cast<double>(counts[level]));
+        double divided = 0;
+        for (const float pixels : roots)
+            if (pixels > part) divided += pixels / part;
+        const std::size_t vertices = counts[level] + static_cast<std::size_t>(divided);
+        if (vertices <= most || counts[level + 1] == counts[level])
+            return {level, std::min(vertices, most)};
+    }
+    return {MeshFront::kLevels - 1, most};
+}
+
+void even_out(ShadingCache& cache, IdMap& map, const MeshFront& mesh, int channel,
+              const StartLevel& start, Cycle now) {
     std::priority_queue<Large> large;
     std::size_t in_view = 0;
     const auto add = [&](PatchId id) {
@@ -35,8 +68,9 @@ void even_out(ShadingCache& cache, IdMap& map, int channel, std::size_t vertex_b
         if (pixels > kSmallest && p.fragment_count > 1 && p.divisible()) large.push({pixels, id});
     };
     for (std::size_t i = 0; i < cache.patches().size(); ++i) add(static_cast<PatchId>(i));
+    if (start.level > 0) in_view = mesh.count_by_level(cache.shading(channel))[start.level];
 
-    while (!large.empty() && in_view < vertex_budget) {
+    while (!large.empty() && in_view < start.vertices) {
         const PatchId id = large.top().patch;
         large.pop();
         if (cache.patch(id).is_leaf()) subdivide_seen(cache, map, id, now);
@@ -47,35 +81,47 @@ void even_out(ShadingCache& cache, IdMap& map, int channel, std::size_t vertex_b
     }
 }
 
-std::size_t missing_in_view(const ShadingCache& cache, int channel) {
-    std::vector<char> counted(cache.vertices().size(), 0);
-    std::size_t missing = 0;
+std::vector<VertexId> missing_in_view(const ShadingCache& cache, const MeshFront& mesh, int channel,
+                                      int start_level) {
+    std::vector<char> passed(cache.vertices().size(), 0);
+    std::vector<VertexId> missing;
+    const auto want = [&](VertexId id) {
+        if (passed[index_of(id)] || cache.evaluated(id, channel)) return;
+        passed[index_of(id)] = 1;
+        missing.push_back(id);
+    };
+    for (std::size_t place = 0; place < mesh.vertices().size(); ++place) {
+        if (!mesh.in_view(place, cache.shading(channel))) continue;
+        if (mesh.level(place) >= start_level)
+            want(mesh.vertices()[place]);
+        else
+            passed[index_of(mesh.vertices()[place])] = 1;
+    }
     for (std::size_t i = 0; i < cache.patches().size(); ++i) {
         const Patch& p = cache.patches()[i];
         if (!(cache.pixels(p, channel) > 0) || !on_front(cache, static_cast<PatchId>(i), channel))
             continue;
         for (int c = 0; c < p.corner_count(); ++c) {
-            char& known = counted[index_of(p.corners[c])];
-            if (known || cache.evaluated(p.corners[c], channel)) continue;
-            known = 1;
-            ++missing;
+            // Parts of a patch that was divided want all that they are drawn from.
+            if (!p.is_root()) passed[index_of(p.corners[c])] = 0;
+            want(p.corners[c]);
         }
     }
+    std::sort(missing.begin(), missing.end());
+    missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
     return missing;
 }
 
-void evaluate_in_view(const ShadingCache& cache, std::span<const std::uint32_t> samples,
-                      ShadeWork& work) {
-    for (std::size_t i = 0; i < cache.patches().size(); ++i) {
-        const Patch& p = cache.patches()[i];
-        if (p.fragment_count == 0) continue;
-        for (int channel = 0; channel < cache.channels(); ++channel) {
-            if (!(cache.pixels(p, channel) > 0)) continue;
-            if (!on_front(cache, static_cast<PatchId>(i), channel)) continue;
-            for (int c = 0; c < p.corner_count(); ++c)
-                work.evaluate(cache, p.corners[c], channel, samples[channel]);
-        }
+std::vector<VertexId> hollow_in_view(const ShadingCache& cache, const MeshFront& mesh,
+                                     int channel) {
+    std::vector<VertexId> hollow;
+    for (std::size_t place = 0; place < mesh.vertices().size(); ++place) {
+        const VertexId id = mesh.vertices()[place];
+        if (cache.vertex(id).hollow && !cache.evaluated(id, channel) &&
+            mesh.in_view(place, cache.shading(channel)))
+            hollow.push_back(id);
     }
+    return hollow;
 }
 
 namespace {

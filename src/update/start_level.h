@@ -1,6 +1,7 @@
 // The first picture (design, section 3): everything in view is evaluated at an even density.
 #pragma once
 
+#include "sample_selector/mesh_front.h"
 #include "shading_cache/id_map.h"
 #include "update/shade_work.h"
 
@@ -8,18 +9,33 @@
 
 namespace chiaro {
 
-/// Divides the patches that cover most of the view, the largest first, until a channel's front has
-/// about `vertex_budget` vertices in view or no patch of it covers more than a few pixels. What is
+/// How coarse the first picture starts in one channel.
+struct StartLevel {
+    int level = 0;             // vertices of meshes that stand for this or coarser levels start
+    std::size_t vertices = 0;  // as many patches or vertices as the view is divided into
+};
+
+/// The finest level whose vertices in view, with large patches divided to the same density, are at
+/// most `most`. On level 0, which is the paper's start, large patches are divided until `fewest`
+/// patches are in view.
+StartLevel choose_start_level(const ShadingCache& cache, const MeshFront& mesh, int channel,
+                              std::size_t fewest, std::size_t most);
+
+/// Divides the patches that cover most of the view, the largest first, until a channel is divided
+/// into as many as `start` says or no patch of its front covers more than a few pixels. What is
 /// divided counts as refined in that channel.
-void even_out(ShadingCache& cache, IdMap& map, int channel, std::size_t vertex_budget, Cycle now);
+void even_out(ShadingCache& cache, IdMap& map, const MeshFront& mesh, int channel,
+              const StartLevel& start, Cycle now);
 
-/// Corners in view of a channel's front where it is not evaluated.
-std::size_t missing_in_view(const ShadingCache& cache, int channel);
+/// Vertices that a channel is to start with and that are not evaluated in it, each once: those of
+/// meshes that stand for its start level, and corners of patches in view of its front that it
+/// lights, but for corners of the mesh below that level.
+std::vector<VertexId> missing_in_view(const ShadingCache& cache, const MeshFront& mesh, int channel,
+                                      int start_level);
 
-/// Asks for every channel at every corner of the patches in view that it lights and that it is not
-/// refined below, where it is missing, with `samples` of each channel (0: as its plan says).
-void evaluate_in_view(const ShadingCache& cache, std::span<const std::uint32_t> samples,
-                      ShadeWork& work);
+/// Vertices of meshes in view in a channel, not evaluated in it, all of whose parents are buried:
+/// nothing is known there.
+std::vector<VertexId> hollow_in_view(const ShadingCache& cache, const MeshFront& mesh, int channel);
 
 /// Patches in view all or all but one of whose corners are buried, although something of them is
 /// seen: those of a channel's front that can be divided further.

@@ -78,14 +78,14 @@ SplitRule split_rule(Scheme scheme) {
 
 }  // namespace
 
-UpdateCycle::UpdateCycle(const RayCaster& rays, SampleRenderer& renderer, OpenSides& open_sides,
-                         const UpdateSettings& settings)
+UpdateCycle::UpdateCycle(const RayCaster& rays, const MeshGraphs& graphs, SampleRenderer& renderer,
+                         OpenSides& open_sides, const UpdateSettings& settings)
     : rays_(&rays),
       renderer_(&renderer),
       open_sides_(&open_sides),
       settings_(settings),
       plans_(plan_channels(settings, rays.scene())),
-      cache_(rays.scene(), count_channels(plans_), split_rule(settings.scheme)),
+      cache_(rays.scene(), graphs, count_channels(plans_), split_rule(settings.scheme)),
       environment_(!is_dark(rays.scene().environment)),
       rng_(settings.seed),
       front_(plans_.size()),
@@ -140,22 +140,18 @@ ShadeWork UpdateCycle::new_work() const {
 // scheme evaluates the roots as they are.
 void UpdateCycle::start() {
     ShadeWork work = new_work();
-    std::vector<std::uint32_t> samples(plans_.size(), 0);
-    if (settings_.scheme == Scheme::best) {
+    {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
+        mesh_front_.attach(cache_);
         const double seconds = settings_.fixed_size
                                    ? kFixedFirstPictureSeconds
                                    : settings_.first_picture_seconds * threads_at_once();
-        for (int c = 0; c < cache_.channels(); ++c) samples[c] = even_out_channel(c, seconds);
-    }
-    {
-        const StepTimer timer(statistics_.timings, Step::sample_selection);
-        evaluate_in_view(cache_, samples, work);
+        for (int c = 0; c < cache_.channels(); ++c) start_channel(c, seconds, work);
     }
     shade(work);
     if (settings_.scheme == Scheme::best) dig_out();
     estimate_exposure();
-    refresh();
+    refresh(Extent::everything);
 }
 
 // A face whose corners all lie in its neighbours would be black: divides such patches at once,
@@ -166,8 +162,12 @@ void UpdateCycle::dig_out() {
     for (int round = 0; round < kMostRounds; ++round) {
         ShadeWork work = new_work();
         touched_.clear();
-        for (int c = 0; c < cache_.channels(); ++c)
+        for (int c = 0; c < cache_.channels(); ++c) {
+            cache_.resolve();
+            for (const VertexId v : hollow_in_view(cache_, mesh_front_, c))
+                work.evaluate(cache_, v, c);
             for (const PatchId patch : dug_in(cache_, c)) divide(patch, c, work);
+        }
         if (work.points() == 0) break;
         shade(work);
     }
@@ -186,27 +186,45 @@ double UpdateCycle::first_picture_share(int channel) const {
            (plans_[channel].light == Light::direct ? kDirectShare : 1 - kDirectShare);
 }
 
-// Divides patches until a channel's share of the first picture's seconds is used, and returns with
-// how many samples its vertices start: more than the plan says where few vertices are needed, since
-// noise is seen before interpolation is.
-std::uint32_t UpdateCycle::even_out_channel(int channel, double seconds) {
+// Asks for the vertices that a channel's share of the first picture's seconds can pay: those of
+// coarser levels where meshes are too dense for it, those of divided patches where they are too
+// coarse.
+void UpdateCycle::start_channel(int channel, double seconds, ShadeWork& work) {
+    const std::uint32_t fewest = plans_[channel].first_samples;
+    if (settings_.scheme == Scheme::paper) {
+        evaluate(missing_in_view(cache_, mesh_front_, channel, 0), channel, fewest, work);
+        return;
+    }
     const double share = seconds * first_picture_share(channel);
     const auto affordable = [&](std::uint32_t samples) {
         return share / (samples * static_cast<double>(gains_.seconds_a_sample[channel]));
     };
-    std::uint32_t samples = plans_[channel].first_samples * kMostFirstSamples;
-    const auto now = static_cast<Cycle>(statistics_.cycles);
-    even_out(cache_, map_, channel, static_cast<std::size_t>(affordable(samples)), now);
-    const auto missing = static_cast<double>(missing_in_view(cache_, channel));
-    while (samples > plans_[channel].first_samples && affordable(samples) < missing) samples /= 2;
-    return samples;
+    const std::uint32_t most = fewest * kMostFirstSamples;
+    const StartLevel start =
+        choose_start_level(cache_, mesh_front_, channel, static_cast<std::size_t>(affordable(most)),
+                           static_cast<std::size_t>(affordable(fewest)));
+    even_out(cache_, map_, mesh_front_, channel, start, static_cast<Cycle>(statistics_.cycles));
+    const auto missing = missing_in_view(cache_, mesh_front_, channel, start.level);
+    // More samples than the plan says where few vertices are needed, since noise is seen before
+    // interpolation is.
+    std::uint32_t samples = most;
+    while (samples > fewest && affordable(samples) < static_cast<double>(missing.size()))
+        samples /= 2;
+    evaluate(missing, channel, samples, work);
+}
+
+void UpdateCycle::evaluate(std::span<const VertexId> vertices, int channel, std::uint32_t samples,
+                           ShadeWork& work) const {
+    for (const VertexId v : vertices) work.evaluate(cache_, v, channel, samples);
 }
 
 void UpdateCycle::shade(ShadeWork& work) {
     const StepTimer timer(statistics_.timings, Step::rendering);
     for (int c = 0; c < cache_.channels(); ++c) {
+        const std::vector<VertexId> new_ones = evaluated_first(work, c);
         const double seconds =
             work.shade(cache_, *renderer_, c, static_cast<Cycle>(statistics_.cycles));
+        mesh_front_.settle(cache_, new_ones, c, gains_);
         statistics_.samples[c] += work.samples(c);
         if (settings_.fixed_size || work.samples(c) < 2000) continue;
         const double measured = seconds * threads_at_once() / static_cast<double>(work.samples(c));
@@ -218,6 +236,15 @@ void UpdateCycle::shade(ShadeWork& work) {
     // Where nothing was found, darkness is to be told from bad luck. Ends: samples double.
     ShadeWork doubts = work.doubts(cache_);
     if (doubts.points() > 0) shade(doubts);
+}
+
+// Vertices of meshes that the work evaluates for the first time in a channel, coarse ones first.
+std::vector<VertexId> UpdateCycle::evaluated_first(const ShadeWork& work, int channel) const {
+    std::vector<VertexId> vertices;
+    for (const VertexId v : work.vertices(channel))
+        if (cache_.vertex(v).of_mesh && !cache_.evaluated(v, channel)) vertices.push_back(v);
+    std::sort(vertices.begin(), vertices.end());
+    return vertices;
 }
 
 // Asking for more threads than there are processors makes nothing faster.
@@ -254,11 +281,12 @@ void UpdateCycle::age() {
     make_map(ViewQuality::antialiased);
     // The view is the same, and so are its pixels: what passes have shown of them stays.
     if (polish_.size() != map_.chance_pixels.size()) restart_polish();
-    refresh();
+    mesh_front_.attach(cache_);
+    refresh(Extent::everything);
 }
 
 std::size_t UpdateCycle::bytes() const {
-    std::size_t total = cache_.bytes() + polish_.bytes();
+    std::size_t total = cache_.bytes() + polish_.bytes() + mesh_front_.bytes();
     for (const SumTree& tree : front_) total += tree.bytes();
     return total;
 }

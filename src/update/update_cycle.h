@@ -2,7 +2,7 @@
 #pragma once
 
 #include "image_generator/ray_view.h"
-#include "sample_selector/gain.h"
+#include "sample_selector/mesh_front.h"
 #include "sample_selector/select_samples.h"
 #include "sample_selector/sum_tree.h"
 #include "scene/bsdf.h"
@@ -18,6 +18,11 @@ namespace chiaro {
 /// `paper` is sections 3 and 4 as they stand: one joint channel, fixed samples, the difference of
 /// the corners. `best` is what measured better (docs/overview.md).
 enum class Scheme { best, paper };
+
+/// The levels that a scheme's meshes are to have (MeshGraphs).
+inline CoarserLevels coarser_levels(Scheme scheme) {
+    return scheme == Scheme::paper ? CoarserLevels::none : CoarserLevels::up_to_a_fortieth;
+}
 
 struct UpdateSettings {
     Scheme scheme = Scheme::best;
@@ -45,11 +50,13 @@ struct Statistics {
 
 /// The update loop's state. Owns the cache, the ID map and the front of refinement.
 ///
-/// Thread: one, the update thread. Scene, rays, renderer and open sides must outlive it.
+/// Thread: one, the update thread. Scene, rays, graphs, renderer and open sides must outlive it.
 class UpdateCycle {
 public:
-    UpdateCycle(const RayCaster& rays, SampleRenderer& renderer, OpenSides& open_sides,
-                const UpdateSettings& settings);
+    /// `graphs` are of the meshes of `rays`' scene; the paper's scheme wants none coarser than
+    /// these.
+    UpdateCycle(const RayCaster& rays, const MeshGraphs& graphs, SampleRenderer& renderer,
+                OpenSides& open_sides, const UpdateSettings& settings);
 
     /// Looks from elsewhere, from the next cycle on. Diffuse shading stays: it does not depend on
     /// the eye. Glossy shading starts anew if the eye has moved.
@@ -84,7 +91,10 @@ private:
     void start();
     void dig_out();
     void divide(PatchId patch, int channel, ShadeWork& work);
-    std::uint32_t even_out_channel(int channel, double seconds);
+    void start_channel(int channel, double seconds, ShadeWork& work);
+    void evaluate(std::span<const VertexId> vertices, int channel, std::uint32_t samples,
+                  ShadeWork& work) const;
+    std::vector<VertexId> evaluated_first(const ShadeWork& work, int channel) const;
     double first_picture_share(int channel) const;
     void refine();
     void refine_as_paper();
@@ -92,12 +102,21 @@ private:
     void age();
     void choose(ShadeWork& work);
     void spend_by_chance(ShadeWork& work);
-    bool draw_patch(PatchId& patch, int& channel);
+    struct Choice {
+        int channel = 0;
+        PatchId patch = PatchId::none;
+        VertexId vertex = VertexId::none;  // of a mesh, if it is no patch
+    };
+    std::optional<Choice> draw_choice();
     PatchId front_patch_at(std::uint32_t pixel, int channel);
     void spend_on(PatchId patch, int channel, ShadeWork& work);
+    void spend_on(VertexId vertex, int channel, ShadeWork& work);
     void shade(ShadeWork& work);
     float front_gain(PatchId patch, int channel) const;
-    void refresh();
+    bool front_changed(PatchId patch, int channel) const;
+    enum class Extent { what_changed, everything };
+    void refresh(Extent extent);
+    void reckon_front(int channel, Extent extent);
     void estimate_exposure();
     int threads_at_once() const;
     double work_seconds(const ShadeWork& work) const;
@@ -118,7 +137,9 @@ private:
     Rng rng_;
     GainSettings gains_;
     std::vector<SumTree> front_;                    // a channel: gain by patch
+    MeshFront mesh_front_;                          // of vertices of meshes
     std::vector<std::pair<PatchId, int>> touched_;  // gains to reckon anew once shaded
+    std::vector<std::pair<VertexId, int>> touched_vertices_;
     std::size_t points_since_refresh_ = 0;
     std::size_t points_at_exposure_ = 0;
     double paper_sample_count_ = 70;

@@ -13,13 +13,14 @@ namespace chiaro::tiny {
 struct Looking {
     Scene scene;
     RayCaster caster;
+    MeshGraphs graphs{scene, CoarserLevels::none, 1};
     ShadingCache cache;
     View view;
 
     Looking(Scene s, int width, int height, Vec3 eye = {0, 0, 4}, Vec3 target = Vec3(0))
         : scene(std::move(s)),
           caster(scene, 1),
-          cache(scene, {1}, SplitRule::by_shape),
+          cache(scene, graphs, {1}, SplitRule::by_shape),
           view({.eye = eye, .target = target, .vertical_fov = 90}, width, height) {}
     Looking(const Looking&) = delete;
     Looking& operator=(const Looking&) = delete;

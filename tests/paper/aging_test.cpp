@@ -14,8 +14,9 @@ using namespace tiny;
 // A square, divided twice, at which one looks in cycle 1 and away in cycle 2.
 struct Aged {
     Scene scene = grid(1, 1);
+    MeshGraphs graphs{scene, CoarserLevels::none, 1};
     ShadingCache cache;
-    Aged() : cache(scene, {1}, SplitRule::always_four) {
+    Aged() : cache(scene, graphs, {1}, SplitRule::always_four) {
         const PatchId root = front_roots(cache)[0];
         Rng rng(1);
         IdMap map = random_map(cache, {root}, 500, rng);

@@ -21,12 +21,13 @@ GainSettings settings() {
 // A square of which `fragments` are in view, and its midpoints evaluated.
 struct Square {
     Scene scene = grid(1, 1);
+    MeshGraphs graphs{scene, CoarserLevels::none, 1};
     ShadingCache cache;
     PatchId root;
     std::array<VertexId, 4> corners;
     Rng rng{1};
 
-    explicit Square(int fragments) : cache(scene, {1}, SplitRule::always_four) {
+    explicit Square(int fragments) : cache(scene, graphs, {1}, SplitRule::always_four) {
         root = cache.root(ObjectId{0}, 0, true);
         corners = cache.patch(root).corners;
         IdMap map = random_map(cache, {root}, fragments, rng);
@@ -88,7 +89,8 @@ TEST(Gain, FallsWithTheSquareOfWhatIsSeen) {
 TEST(Gain, IsOfWhatAChannelLights) {
     const Scene scene = grid(1, 1);
     for (const bool gloss : {false, true}) {
-        ShadingCache cache(scene, {.irradiance = 1, .glossy = 1}, SplitRule::always_four);
+        const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+        ShadingCache cache(scene, graphs, {.irradiance = 1, .glossy = 1}, SplitRule::always_four);
         const PatchId root = cache.root(ObjectId{0}, 0, true);
         Rng rng(1);
         IdMap map = random_map(cache, {root}, 100, rng);

@@ -43,7 +43,8 @@ TEST(PriorityRange, NoSpreadIsOneHalf) {
 // 4.1: largest minus smallest of the corners' tone-mapped colours, at the patch's reflectance.
 TEST(InterpolationError, IsTheRangeOfTheTonesOfTheCorners) {
     const Scene scene = grid(1, 1);  // reflectance 0.5
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const PatchId root = front_roots(cache)[0];
     const std::array<Rgb, 4> light = {Rgb(4, 0, 0), Rgb(1), Rgb(0, 8, 0), Rgb(2, 2, 2)};
     EXPECT_EQ(interpolation_error(cache, cache.patch(root), {}), 1);  // nothing is known
@@ -64,7 +65,8 @@ TEST(InterpolationError, IsTheRangeOfTheTonesOfTheCorners) {
 
 TEST(InterpolationError, IsZeroWhereTheCornersAgree) {
     const Scene scene = grid(1, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const PatchId root = front_roots(cache)[0];
     store_constant(cache, Rgb(4, 2, 1));
     EXPECT_EQ(interpolation_error(cache, cache.patch(root), {}), 0);
@@ -74,7 +76,8 @@ TEST(InterpolationError, IsZeroWhereTheCornersAgree) {
 TEST(PriorityMap, CountsVisibleLeavesOnce) {
     Rng rng(1);
     const Scene scene = grid(3, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const auto roots = front_roots(cache);
     cache.subdivide(roots[0]);
     store_random(cache, rng);
@@ -100,7 +103,8 @@ TEST(PriorityMap, CountsVisibleLeavesOnce) {
 TEST(PriorityMap, APixelOfSeveralLeavesStandsForEachInTurn) {
     Rng rng(1);
     const Scene scene = grid(2, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const auto roots = front_roots(cache);
     IdMap map = random_map(cache, {roots[0]}, 1, rng);
     map.fragments.front().reflectance = Rgb(0.1f);

@@ -11,10 +11,11 @@ using namespace tiny;
 // Two squares, each divided into 1 + 4 + 16 patches below which fragments lie, and looked at once.
 struct Seen {
     Scene scene = grid(2, 1);
+    MeshGraphs graphs{scene, CoarserLevels::none, 1};
     ShadingCache cache;
     Rng rng{1};
 
-    Seen() : cache(scene, {1}, SplitRule::always_four) {
+    Seen() : cache(scene, graphs, {1}, SplitRule::always_four) {
         front_roots(cache);
         for (int n = 0; n < 2; ++n)
             for (const PatchId leaf : leaves(cache)) cache.subdivide(leaf);

@@ -9,11 +9,12 @@ using namespace tiny;
 
 struct Square {
     Scene scene = grid(1, 1);
+    MeshGraphs graphs{scene, CoarserLevels::none, 1};
     ShadingCache cache;
     PatchId root;
     std::array<VertexId, 4> corners;
 
-    explicit Square(int channels = 1) : cache(scene, {channels}, SplitRule::always_four) {
+    explicit Square(int channels = 1) : cache(scene, graphs, {channels}, SplitRule::always_four) {
         root = cache.root(ObjectId{0}, 0, true);
         corners = cache.patch(root).corners;
     }

@@ -168,12 +168,10 @@ inline void expect_consistent(const ShadingCache& cache) {
     }
     std::set<std::pair<VertexId, VertexId>> edges;
     for (std::uint32_t i = 0; i < cache.vertices().size(); ++i) {
-        const auto& parents = cache.vertices()[i].parents;
-        for (const VertexId parent : parents)
-            if (parent != VertexId::none) {
-                EXPECT_LT(index_of(parent), i);
-            }
-        if (parents[1] == VertexId::none || parents[2] != VertexId::none) continue;
+        const CacheVertex& vertex = cache.vertices()[i];
+        const auto parents = vertex.known_parents();
+        for (const VertexId parent : parents) EXPECT_LT(index_of(parent), i);
+        if (vertex.of_mesh || parents.size() != 2) continue;
         EXPECT_TRUE(edges.insert(std::minmax(parents[0], parents[1])).second);
         EXPECT_EQ(cache.midpoint(parents[1], parents[0]), static_cast<VertexId>(i));
     }

@@ -69,7 +69,8 @@ TEST(IdMap, FragmentsStayInPlaceWhateverIsDivided) {
         for (const SplitRule rule : {SplitRule::always_four, SplitRule::by_shape}) {
             Rng rng(1);
             const Scene scene = grid(3, 2, triangles, stretched(4));
-            ShadingCache cache(scene, {1}, rule);
+            const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+            ShadingCache cache(scene, graphs, {1}, rule);
             const auto roots = front_roots(cache);
             subdivide_at_random(cache, 100, rng);
             IdMap map = random_map(cache, roots, 3000, rng);
@@ -91,7 +92,8 @@ TEST(IdMap, FragmentsStayInPlaceWhateverIsDivided) {
 TEST(IdMap, OnlyWhatIsInViewIsMarkedAsSeen) {
     Rng rng(2);
     const Scene scene = grid(2, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const auto roots = front_roots(cache);
     subdivide_at_random(cache, 30, rng);
     IdMap map = random_map(cache, {roots[0]}, 50, rng);
@@ -110,7 +112,8 @@ TEST(IdMap, OnlyWhatIsInViewIsMarkedAsSeen) {
 TEST(IdMap, AnotherViewStartsAnew) {
     Rng rng(3);
     const Scene scene = grid(2, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const auto roots = front_roots(cache);
     IdMap first = random_map(cache, roots, 500, rng);
     attach(cache, first, 1);
@@ -127,7 +130,8 @@ TEST(IdMap, AnotherViewStartsAnew) {
 TEST(IdMap, FragmentsAreFoundByPixel) {
     Rng rng(4);
     const Scene scene = grid(1, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const IdMap map = random_map(cache, front_roots(cache), 10, rng);
     for (std::uint32_t p = 0; p < 10; ++p) {
         ASSERT_EQ(map.at_pixel(p).size(), 1u);
@@ -139,7 +143,8 @@ TEST(IdMap, FragmentsAreFoundByPixel) {
 // in two halves that each shine half as much 1/4 too. Gloss weighs by itself.
 TEST(IdMap, PatchesWeighTheSquaresOfTheirShares) {
     const Scene scene = grid(1, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const PatchId root = front_roots(cache)[0];
     const float alone = cache.patch(root).reflectance / 255.0f / kPi;
     IdMap map;

@@ -47,7 +47,8 @@ TEST(Interpolate, ReproducesLinearFunctions) {
     for (const bool triangles : {false, true})
         for (const SplitRule rule : {SplitRule::always_four, SplitRule::by_shape}) {
             const Scene scene = grid(3, 2, triangles, shear);
-            ShadingCache cache(scene, {1}, rule);
+            const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+            ShadingCache cache(scene, graphs, {1}, rule);
             const auto roots = front_roots(cache);
             subdivide_at_random(cache, 200, rng);
             store_everywhere(cache, linear);
@@ -67,7 +68,8 @@ TEST(Interpolate, ReproducesLinearFunctions) {
 // Channels are summed.
 TEST(Interpolate, SumsTheChannels) {
     const Scene scene = grid(1, 1);
-    ShadingCache cache(scene, {2}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {2}, SplitRule::always_four);
     const PatchId root = front_roots(cache)[0];
     for (const VertexId v : cache.patch(root).corners) {
         cache.store(v, 0, Rgb(2), 0, 1, 1);
@@ -83,7 +85,8 @@ TEST(Interpolate, HasNoCracksBetweenRoots) {
     Rng rng(3);
     for (const SplitRule rule : {SplitRule::always_four, SplitRule::by_shape}) {
         const Scene scene = grid(2, 1, false, stretched(3));
-        ShadingCache cache(scene, {1}, rule);
+        const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+        ShadingCache cache(scene, graphs, {1}, rule);
         const auto roots = front_roots(cache);
         subdivide_at_random(cache, 100, rng);
         // The left side stays coarse at the edge, the right one halves it six times.
@@ -108,7 +111,8 @@ TEST(Interpolate, HasNoCracksBetweenLeaves) {
     for (const bool triangles : {false, true})
         for (const SplitRule rule : {SplitRule::always_four, SplitRule::by_shape}) {
             const Scene scene = grid(1, 1, triangles, stretched(2.5f));
-            ShadingCache cache(scene, {1}, rule);
+            const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+            ShadingCache cache(scene, graphs, {1}, rule);
             const PatchId root = front_roots(cache)[0];
             subdivide_at_random(cache, 60, rng);
             store_random(cache, rng);
@@ -154,7 +158,8 @@ TEST(Interpolate, HasNoCracksBetweenLeaves) {
 // At a vertex the interpolation is the vertex's value; in a quad's middle the mean of its corners.
 TEST(Interpolate, PassesThroughTheVertices) {
     const Scene scene = grid(1, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const PatchId root = front_roots(cache)[0];
     for (int c = 0; c < 4; ++c)
         cache.store(cache.patch(root).corners[c], 0, Rgb(static_cast<float>(8 << c)), 0, 1, 1);

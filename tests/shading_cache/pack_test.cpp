@@ -46,11 +46,12 @@ void expect_same_tree(const ShadingCache& before, PatchId a, const ShadingCache&
 // A cache with random values at half of its vertices.
 struct Divided {
     Scene scene;
+    MeshGraphs graphs{scene, CoarserLevels::none, 1};
     ShadingCache cache;
     std::vector<PatchId> roots;
 
     explicit Divided(std::uint64_t seed, bool triangles = false)
-        : scene(grid(3, 2, triangles)), cache(scene, {1}, SplitRule::by_shape) {
+        : scene(grid(3, 2, triangles)), cache(scene, graphs, {1}, SplitRule::by_shape) {
         Rng rng(seed);
         roots = front_roots(cache);
         subdivide_at_random(cache, 300, rng);
@@ -131,7 +132,8 @@ TEST(Pack, KeepsThePictureElsewhere) {
 // An edge that one side gave up keeps the other side's midpoint, and divided anew shares it.
 TEST(Pack, EdgesAreStillShared) {
     const Scene scene = grid(2, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const auto roots = front_roots(cache);
     for (const PatchId root : roots) cache.subdivide(root);
     ASSERT_EQ(cache.vertices().size(), 6u + 5 + 4);
@@ -147,7 +149,8 @@ TEST(Pack, EdgesAreStillShared) {
 // Corners of the mesh are still welded to roots that are made later.
 TEST(Pack, CornersAreStillWelded) {
     const Scene scene = grid(3, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const PatchId first = cache.root(ObjectId{0}, 0, true);
     cache.subdivide(first);
     const PatchId second = cache.root(ObjectId{0}, 1, true);

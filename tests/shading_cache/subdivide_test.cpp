@@ -20,7 +20,8 @@ Scene one_triangle(Vec3 a, Vec3 b, Vec3 c) {
     return scene;
 }
 Split split_of(const Scene& scene, SplitRule rule) {
-    ShadingCache cache(scene, {1}, rule);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, rule);
     const PatchId root = cache.root(ObjectId{0}, 0, true);
     cache.subdivide(root);
     return cache.patch(root).split;
@@ -29,7 +30,8 @@ Split split_of(const Scene& scene, SplitRule rule) {
 // Section 3: roots are made when first asked for, once.
 TEST(Subdivide, RootsAreMadeOnce) {
     const Scene scene = grid(2, 1);
-    ShadingCache cache(scene, {2}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {2}, SplitRule::always_four);
     EXPECT_TRUE(cache.patches().empty());
     const PatchId root = cache.root(ObjectId{0}, 1, true);
     EXPECT_EQ(cache.root(ObjectId{0}, 1, true), root);
@@ -42,7 +44,8 @@ TEST(Subdivide, RootsAreMadeOnce) {
 // A quad in four makes 4 midpoints and a centre; a neighbour finds one midpoint made.
 TEST(Subdivide, NeighboursShareTheMidpointOfTheirEdge) {
     const Scene scene = grid(2, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const auto roots = front_roots(cache);
     EXPECT_EQ(cache.vertices().size(), 6u);
     cache.subdivide(roots[0]);
@@ -55,7 +58,8 @@ TEST(Subdivide, NeighboursShareTheMidpointOfTheirEdge) {
 // A triangle in four makes 3 midpoints; its neighbour 2.
 TEST(Subdivide, TrianglesShareMidpointsToo) {
     const Scene scene = grid(1, 1, true);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const auto roots = front_roots(cache);
     EXPECT_EQ(cache.vertices().size(), 4u);
     cache.subdivide(roots[0]);
@@ -69,7 +73,8 @@ TEST(Subdivide, TrianglesShareMidpointsToo) {
 TEST(Subdivide, AnEvenGridHasEachVertexOnce) {
     const Scene scene = one_quad({1, 0, 0}, {0, 1, 0});
     for (const SplitRule rule : {SplitRule::always_four, SplitRule::by_shape}) {
-        ShadingCache cache(scene, {1}, rule);
+        const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+        ShadingCache cache(scene, graphs, {1}, rule);
         cache.root(ObjectId{0}, 0, true);
         for (int n = 0; n < 5; ++n)
             for (const PatchId leaf : leaves(cache)) cache.subdivide(leaf);
@@ -83,7 +88,8 @@ TEST(Subdivide, StaysConsistentUnderRandomDivision) {
     for (const bool triangles : {false, true})
         for (const SplitRule rule : {SplitRule::always_four, SplitRule::by_shape}) {
             const Scene scene = grid(3, 2, triangles, stretched(5));
-            ShadingCache cache(scene, {2}, rule);
+            const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+            ShadingCache cache(scene, graphs, {2}, rule);
             front_roots(cache);
             subdivide_at_random(cache, 400, rng);
             expect_consistent(cache);
@@ -120,7 +126,8 @@ TEST(Subdivide, LongTrianglesAreHalvedAtTheirLongestEdge) {
 // transform.
 TEST(Subdivide, HalvingEndsInSquares) {
     const Scene scene = grid(1, 1, false, stretched(64));
-    ShadingCache cache(scene, {1}, SplitRule::by_shape);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::by_shape);
     front_roots(cache);
     for (int n = 0; n < 6; ++n)
         for (const PatchId leaf : leaves(cache)) cache.subdivide(leaf);
@@ -134,7 +141,8 @@ TEST(Subdivide, HalvingEndsInSquares) {
 // A child's corner on the surface is where its parent has the node.
 TEST(Subdivide, SurfaceUvOfCornersComesFromTheParentsNodes) {
     const Scene scene = one_quad({1, 0, 0}, {0, 1, 0});
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const PatchId root = cache.root(ObjectId{0}, 0, true);
     const PatchId child = offset_by(cache.subdivide(root), 2);  // corners (.5, .5) to (1, 1)
     const PatchId grandchild = cache.subdivide(child);          // corners (.5, .5) to (.75, .75)
@@ -148,7 +156,8 @@ TEST(Subdivide, SurfaceUvOfCornersComesFromTheParentsNodes) {
 // Sample points are pulled 0.2 % from the border toward the centre of the patch that made them.
 TEST(Subdivide, SamplePointsArePulledFromTheBorder) {
     const Scene scene = one_quad({2, 0, 0}, {0, 2, 0});
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const PatchId root = cache.root(ObjectId{0}, 0, true);
     const PatchId child = cache.subdivide(root);
     const auto expect_uv = [&](VertexId v, Vec2 uv) {
@@ -169,7 +178,8 @@ TEST(Subdivide, SamplePointsLieWithinThePrimitive) {
     Rng rng(3);
     for (const bool triangles : {false, true}) {
         const Scene scene = grid(2, 2, triangles);
-        ShadingCache cache(scene, {1}, SplitRule::by_shape);
+        const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+        ShadingCache cache(scene, graphs, {1}, SplitRule::by_shape);
         front_roots(cache);
         subdivide_at_random(cache, 300, rng);
         for (const CacheVertex& v : cache.vertices()) {

@@ -12,13 +12,14 @@ using namespace tiny;
 // A square divided once: corners, midpoints and centre.
 struct Square {
     Scene scene = grid(1, 1);
+    MeshGraphs graphs{scene, CoarserLevels::none, 1};
     ShadingCache cache;
     PatchId root;
     std::array<VertexId, 4> corners;
     VertexId midpoint;  // of corners 0 and 1
     VertexId centre;
 
-    explicit Square(int channels = 1) : cache(scene, {channels}, SplitRule::always_four) {
+    explicit Square(int channels = 1) : cache(scene, graphs, {channels}, SplitRule::always_four) {
         root = cache.root(ObjectId{0}, 0, true);
         corners = cache.patch(root).corners;
         const PatchId child = cache.subdivide(root);
@@ -171,7 +172,8 @@ TEST(Values, ChannelsAreIndependent) {
 // Glossy radiance is no part of the irradiance, and is given up for another eye; the rest stays.
 TEST(Values, GlossyChannelsAreTheEyesOwn) {
     const Scene scene = grid(1, 1);
-    ShadingCache cache(scene, {.irradiance = 2, .glossy = 1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {.irradiance = 2, .glossy = 1}, SplitRule::always_four);
     const PatchId root = cache.root(ObjectId{0}, 0, true);
     cache.subdivide(root);
     cache.patch(root).refined_channels = 7;

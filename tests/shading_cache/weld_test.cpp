@@ -23,7 +23,8 @@ Mesh folded(float degrees, bool normals, MaterialId first, MaterialId second) {
     return mesh;
 }
 std::size_t vertices_of(const Scene& scene) {
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     front_roots(cache);
     return cache.vertices().size();
 }
@@ -68,7 +69,8 @@ TEST(Weld, OtherObjectsStayApart) {
     const MaterialId material = add_material(scene, Rgb(0.5f));
     add_quad(scene, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, material);
     add_quad(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, material);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     cache.root(ObjectId{0}, 0, true);
     cache.root(ObjectId{1}, 0, true);
     EXPECT_EQ(cache.vertices().size(), 8u);
@@ -77,7 +79,8 @@ TEST(Weld, OtherObjectsStayApart) {
 // The back of a surface is lit by other light: vertices of its own, shared among backs.
 TEST(Weld, SidesStayApart) {
     const Scene scene = grid(2, 1);
-    ShadingCache cache(scene, {1}, SplitRule::always_four);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
     const auto fronts = front_roots(cache);
     const PatchId back = cache.root(ObjectId{0}, 0, false);
     EXPECT_NE(back, fronts[0]);

@@ -26,11 +26,12 @@ public:
 
 struct Desk {
     Scene scene;
+    MeshGraphs graphs{scene, CoarserLevels::none, 1};
     ShadingCache cache;
     Clerk clerk;
     PatchId root;
 
-    Desk() : scene(floor()), cache(scene, {2}, SplitRule::by_shape) {
+    Desk() : scene(floor()), cache(scene, graphs, {2}, SplitRule::by_shape) {
         root = cache.root(ObjectId(0), 0, true);
     }
     static Scene floor() {

@@ -31,6 +31,7 @@ inline std::string scheme_name(const testing::TestParamInfo<Scheme>& which) {
 struct Studio {
     Scene scene;
     RayCaster rays;
+    MeshGraphs graphs;
     AreaLights area_lights;
     OpenSides open_sides;
     std::unique_ptr<SampleRenderer> renderer;
@@ -39,10 +40,11 @@ struct Studio {
     Studio(Scene s, const UpdateSettings& settings, Truth by = Truth::path)
         : scene(std::move(s)),
           rays(scene, settings.threads),
+          graphs(scene, coarser_levels(settings.scheme), settings.threads),
           area_lights(scene),
           open_sides(scene),
           renderer(make_renderer(by, scene, rays, area_lights, &open_sides, settings.threads)),
-          cycle(rays, *renderer, open_sides, settings) {}
+          cycle(rays, graphs, *renderer, open_sides, settings) {}
     Studio(const Studio&) = delete;
     Studio& operator=(const Studio&) = delete;
 

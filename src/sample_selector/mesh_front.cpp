@@ -1,0 +1,163 @@
+#include "sample_selector/mesh_front.h"
+
+#include <algorithm>
+
+namespace chiaro {
+namespace {
+
+constexpr std::array<Shading, 2> kKinds = {Shading::irradiance, Shading::glossy};
+
+bool concerned(const ShadingCache& cache, VertexId vertex, int channel) {
+    if (cache.changed(vertex, channel)) return true;
+    for (const VertexId parent : cache.vertex(vertex).known_parents())
+        if (cache.changed(parent, channel)) return true;
+    return false;
+}
+
+}  // namespace
+
+void MeshFront::attach(const ShadingCache& cache) {
+    vertices_.clear();
+    levels_.clear();
+    for (std::size_t i = 0; i < cache.vertices().size(); ++i) {
+        if (!cache.vertices()[i].of_mesh) continue;
+        const auto id = static_cast<VertexId>(i);
+        vertices_.push_back(id);
+        levels_.push_back(static_cast<std::uint8_t>(std::min(cache.level(id), kLevels - 1)));
+    }
+    weigh(cache);
+}
+
+void MeshFront::weigh(const ShadingCache& cache) {
+    in_view_.assign(vertices_.size(), 0);
+    for (auto& own : own_) own.assign(vertices_.size(), 0.0f);
+    spoken_for_.assign(cache.channels(), std::vector<float>(vertices_.size(), 0.0f));
+
+    // The pixels of roots fall on their corners in equal parts.
+    for (const Patch& patch : cache.patches()) {
+        if (!patch.is_root() || patch.fragment_count == 0) continue;
+        const std::array<float, 2> pixels = {patch.pixels, patch.glossy_pixels};
+        const auto part = 1 / static_cast<float>(patch.corner_count());
+        for (int c = 0; c < patch.corner_count(); ++c) {
+            const std::size_t place = place_of(patch.corners[c]);
+            for (int kind = 0; kind < 2; ++kind) {
+                own_[kind][place] += part * pixels[kind];
+                if (pixels[kind] > 0) in_view_[place] |= static_cast<std::uint8_t>(1 << kind);
+            }
+        }
+    }
+
+    // Then from fine to coarse: parents come before their children.
+    for (std::size_t place = vertices_.size(); place-- > 0;) {
+        const CacheVertex& v = cache.vertex(vertices_[place]);
+        const auto parents = v.known_parents();
+        for (std::size_t i = 0; i < parents.size(); ++i) {
+            const std::size_t parent = place_of(parents[i]);
+            in_view_[parent] |= in_view_[place];
+            for (int c = 0; c < cache.channels(); ++c)
+                if (!cache.evaluated(vertices_[place], c))
+                    spoken_for_[c][parent] += v.weight(i) * pixels(cache, place, c);
+        }
+    }
+}
+
+std::array<std::size_t, MeshFront::kLevels> MeshFront::count_by_level(Shading shading) const {
+    std::array<std::size_t, kLevels> counts{};
+    for (std::size_t place = 0; place < vertices_.size(); ++place)
+        if (in_view(place, shading)) ++counts[levels_[place]];
+    for (int l = kLevels - 1; l-- > 0;) counts[l] += counts[l + 1];
+    return counts;
+}
+
+// After the first view the vertices of meshes are the cache's first ones.
+std::size_t MeshFront::place_of(VertexId vertex) const {
+    const std::size_t guess = index_of(vertex);
+    if (guess < vertices_.size() && vertices_[guess] == vertex) return guess;
+    const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), vertex);
+    if (found == vertices_.end() || *found != vertex) return kNowhere;
+    return static_cast<std::size_t>(found - vertices_.begin());
+}
+
+float MeshFront::pixels(const ShadingCache& cache, std::size_t place, int channel) const {
+    const float spoken_for = std::max(0.0f, spoken_for_[channel][place]);
+    if (cache.evaluated(vertices_[place], channel)) return spoken_for;
+    return own_[static_cast<int>(cache.shading(channel))][place] + spoken_for;
+}
+
+// Takes pixels off all that spoke for a vertex.
+void MeshFront::lift(const ShadingCache& cache, VertexId vertex, int channel, float pixels) {
+    const CacheVertex& v = cache.vertex(vertex);
+    const auto parents = v.known_parents();
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        const float part = v.weight(i) * pixels;
+        spoken_for_[channel][place_of(parents[i])] -= part;
+        if (!cache.evaluated(parents[i], channel)) lift(cache, parents[i], channel, part);
+    }
+}
+
+void MeshFront::settle(ShadingCache& cache, std::span<const VertexId> evaluated, int channel,
+                       const GainSettings& settings) {
+    // Coarse ones first, so that each lifts all that weighed on it before.
+    for (const VertexId id : evaluated) {
+        const std::size_t place = place_of(id);
+        if (place == kNowhere) continue;
+        const Shading kind = cache.shading(channel);
+        lift(cache, id, channel,
+             own_[static_cast<int>(kind)][place] + std::max(0.0f, spoken_for_[channel][place]));
+        for (const VertexId parent : cache.vertex(id).known_parents()) {
+            if (!cache.evaluated(parent, channel) || cache.vertex(parent).buried) continue;
+            cache.suspect(parent, channel, cache.surplus(id, channel));
+            reckon(cache, parent, channel, settings);
+        }
+        reckon(cache, id, channel, settings);
+    }
+}
+
+float MeshFront::gain_at(const ShadingCache& cache, std::size_t place, int channel,
+                         const GainSettings& settings) const {
+    const float seen = pixels(cache, place, channel);
+    if (!(seen > 0)) return 0;
+    const VertexId id = vertices_[place];
+    return cache.evaluated(id, channel) ? gain_of_more(cache, id, channel, seen, settings)
+                                        : gain_of_first(cache, id, channel, seen, settings);
+}
+
+void MeshFront::reckon(const ShadingCache& cache, const GainSettings& settings) {
+    gains_.resize(cache.channels());
+    std::vector<float> gains(vertices_.size());
+    for (int c = 0; c < cache.channels(); ++c) {
+        for (std::size_t place = 0; place < gains.size(); ++place)
+            gains[place] = gain_at(cache, place, c, settings);
+        gains_[c].assign(gains);
+    }
+}
+
+void MeshFront::reckon_changed(const ShadingCache& cache, const GainSettings& settings) {
+    for (int c = 0; c < cache.channels(); ++c)
+        for (std::size_t place = 0; place < vertices_.size(); ++place)
+            if (concerned(cache, vertices_[place], c))
+                gains_[c].set(place, gain_at(cache, place, c, settings));
+}
+
+void MeshFront::reckon(const ShadingCache& cache, VertexId vertex, int channel,
+                       const GainSettings& settings) {
+    if (gains_.empty()) return;
+    const std::size_t place = place_of(vertex);
+    if (place != kNowhere) gains_[channel].set(place, gain_at(cache, place, channel, settings));
+}
+
+void MeshFront::rest(VertexId vertex, int channel) {
+    const std::size_t place = place_of(vertex);
+    if (place != kNowhere) gains_[channel].set(place, 0);
+}
+
+std::size_t MeshFront::bytes() const {
+    std::size_t total =
+        vertices_.capacity() * sizeof(VertexId) + levels_.capacity() + in_view_.capacity();
+    for (const auto& own : own_) total += own.capacity() * sizeof(float);
+    for (const auto& spoken_for : spoken_for_) total += spoken_for.capacity() * sizeof(float);
+    for (const SumTree& gains : gains_) total += gains.bytes();
+    return total;
+}
+
+}  // namespace chiaro

@@ -1,0 +1,75 @@
+// Which vertices of dense meshes to evaluate next: the front of refinement above the patches.
+#pragma once
+
+#include "sample_selector/gain.h"
+#include "sample_selector/sum_tree.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace chiaro {
+
+/// The vertices of meshes that the cache knows, with what each weighs in the view and would gain.
+///
+/// The pixels of a patch weigh on its corners. A vertex that is not evaluated hands what weighs on
+/// it to its parents, which speak for it; an evaluated one keeps it. So what weighs on a vertex is
+/// what changes with its value, and each channel has weights of its own.
+///
+/// Thread: one. Ids are the cache's and change when it packs: attach() again.
+class MeshFront {
+public:
+    /// Takes up all vertices of meshes and weighs them in the view that is attached to the cache.
+    void attach(const ShadingCache& cache);
+
+    std::span<const VertexId> vertices() const { return vertices_; }  // in order
+    /// Whether a vertex, by its place in vertices(), counts in that kind of shading in the view, as
+    /// a corner in view or as one that predicts such a corner.
+    bool in_view(std::size_t place, Shading shading) const {
+        return in_view_[place] >> static_cast<int>(shading) & 1;
+    }
+    /// The coarsest level that it stands for.
+    int level(std::size_t place) const { return levels_[place]; }
+    static constexpr int kLevels = 16;
+    /// Vertices in view that stand for level l or coarser ones, by l.
+    std::array<std::size_t, kLevels> count_by_level(Shading shading) const;
+
+    /// The weight of a vertex: if it is evaluated, that of vertices which it speaks for.
+    float pixels(const ShadingCache& cache, std::size_t place, int channel) const;
+
+    /// Vertices, in order, were evaluated in a channel for the first time: what they weigh is
+    /// lifted off those that spoke for them, which are suspected where they spoke wrongly. Others
+    /// than vertices of meshes are passed over.
+    void settle(ShadingCache& cache, std::span<const VertexId> evaluated, int channel,
+                const GainSettings& settings);
+
+    /// Reckons gains anew: of all vertices, or of those that a change of the cache concerns.
+    void reckon(const ShadingCache& cache, const GainSettings& settings);
+    void reckon_changed(const ShadingCache& cache, const GainSettings& settings);
+    void reckon(const ShadingCache& cache, VertexId vertex, int channel,
+                const GainSettings& settings);
+    /// Takes a vertex out of the draw until its gain is reckoned again.
+    void rest(VertexId vertex, int channel);
+
+    double total(int channel) const { return gains_.empty() ? 0 : gains_[channel].total(); }
+    VertexId draw(int channel, float u) const { return vertices_[gains_[channel].draw(u)]; }
+
+    std::size_t bytes() const;
+
+private:
+    static constexpr std::size_t kNowhere = ~std::size_t{0};
+    std::size_t place_of(VertexId vertex) const;
+    void weigh(const ShadingCache& cache);
+    void lift(const ShadingCache& cache, VertexId vertex, int channel, float pixels);
+    float gain_at(const ShadingCache& cache, std::size_t place, int channel,
+                  const GainSettings& settings) const;
+
+    std::vector<VertexId> vertices_;
+    std::vector<std::uint8_t> levels_;
+    std::vector<std::uint8_t> in_view_;           // bit: Shading
+    std::array<std::vector<float>, 2> own_;       // by Shading: pixels of the patches round it
+    std::vector<std::vector<float>> spoken_for_;  // by channel: pixels of vertices it speaks for
+    std::vector<SumTree> gains_;                  // by channel
+};
+
+}  // namespace chiaro

@@ -1,0 +1,90 @@
+// Roots and the vertices of meshes, made when first seen: the part of a mesh that costs anything.
+
+#include "shading_cache/shading_cache.h"
+
+#include <algorithm>
+
+namespace chiaro {
+
+/// One side of a mesh in its place in the scene, with what its ids are counted from.
+struct ShadingCache::MeshPlace {
+    const Mesh& mesh;
+    const MeshGraph& graph;
+    std::uint32_t first_primitive;
+    std::uint32_t first_vertex;
+    std::uint32_t back;  // 1 on the back side
+
+    std::uint32_t side_of(std::uint32_t primitive) const {
+        return 2 * (first_primitive + primitive) + back;
+    }
+};
+
+ShadingCache::MeshPlace ShadingCache::mesh_place(std::uint32_t surface_side) const {
+    const std::size_t object = index_of(place(surface_side, Vec2(0)).object);
+    const Object& o = scene_->objects[object];
+    return {scene_->mesh_of(o), graphs_->of(o.mesh), first_primitive_[object],
+            first_mesh_vertex_[object], surface_side & 1};
+}
+
+PatchId ShadingCache::root(ObjectId object, std::uint32_t primitive, bool front) {
+    const std::uint32_t side =
+        2 * (first_primitive_[index_of(object)] + primitive) + (front ? 0 : 1);
+    if (roots_[side] != PatchId::none) return roots_[side];
+
+    const MeshPlace place = mesh_place(side);
+    const Primitive& p = place.mesh.primitives[primitive];
+    Patch patch;
+    patch.corners.fill(VertexId::none);
+    patch.parent = side;
+    patch.reflectance = reflectances_[index_of(p.material)];
+    for (int c = 0; c < p.corner_count(); ++c) {
+        const MeshCorner corner = {primitive, c};
+        const std::uint32_t vertex = place.graph.vertex_of_corner[corner_index(place.mesh, corner)];
+        patch.corners[c] = mesh_vertex(place, static_cast<MeshVertexId>(vertex), corner);
+    }
+    roots_[side] = static_cast<PatchId>(patches_.size());
+    append(patches_, patch);
+    return roots_[side];
+}
+
+// The cache's vertex for one of the mesh, after those that predict it. A corner in view is sampled
+// on the primitive that is in view, the others where their graph says.
+VertexId ShadingCache::mesh_vertex(const MeshPlace& place, MeshVertexId vertex,
+                                   MeshCorner sampled_at) {
+    VertexId& id = mesh_vertices_[2 * (place.first_vertex + index_of(vertex)) + place.back];
+    if (id != VertexId::none) return id;
+
+    CacheVertex made;
+    made.of_mesh = 1;
+    made.surface_side = place.side_of(sampled_at.primitive) & 0xfff'ffffU;
+    const bool quad = place.mesh.primitives[sampled_at.primitive].is_quad();
+    made.uv = pulled_in(quad, node_place(quad, static_cast<Node>(sampled_at.corner)));
+    const auto parents = place.graph.parents_of(vertex);
+    const auto weights = place.graph.weights_of(vertex);
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        const MeshCorner corner = corner_at(place.mesh, place.graph.corner_of_vertex[parents[i]]);
+        made.parents[i] = mesh_vertex(place, static_cast<MeshVertexId>(parents[i]), corner);
+        made.weights[i] = weights[i];
+    }
+    id = add_vertex(made);
+    return id;
+}
+
+int ShadingCache::level(VertexId id) const {
+    const CacheVertex& v = vertex(id);
+    if (!v.of_mesh) return 0;
+    const MeshPlace place = mesh_place(v.surface_side);
+    const std::uint32_t primitive = v.surface_side / 2 - place.first_primitive;
+    const Primitive& p = place.mesh.primitives[primitive];
+    // It was sampled near the corner that it is.
+    int nearest = 0;
+    const auto distance = [&](int c) {
+        return glm::length(v.uv - node_place(p.is_quad(), static_cast<Node>(c)));
+    };
+    for (int c = 1; c < p.corner_count(); ++c)
+        if (distance(c) < distance(nearest)) nearest = c;
+    const std::uint32_t corner = corner_index(place.mesh, {primitive, nearest});
+    return place.graph.level[place.graph.vertex_of_corner[corner]];
+}
+
+}  // namespace chiaro
