@@ -67,4 +67,12 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
     __tsan_acquire(&join);
 }
 
+void parallel_for_ranges(int threads, std::size_t count, std::size_t size,
+                         const std::function<void(IndexRange)>& body) {
+    parallel_for(threads, (count + size - 1) / size, [&](std::size_t number) {
+        const std::size_t begin = number * size;
+        body({begin, std::min(begin + size, count), number});
+    });
+}
+
 }  // namespace chiaro

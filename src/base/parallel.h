@@ -14,4 +14,14 @@ int hardware_threads();
 /// `threads`. Denormals are flushed to zero in the body on every thread.
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& body);
 
+/// A run of consecutive indices, [begin, end), and its number.
+struct IndexRange {
+    std::size_t begin, end, number;
+};
+
+/// Cuts [0, count) into ceil(count / size) ranges of `size`, the last one of what is left, and
+/// calls body(range) for each as parallel_for() does. The ranges do not depend on `threads`.
+void parallel_for_ranges(int threads, std::size_t count, std::size_t size,
+                         const std::function<void(IndexRange)>& body);
+
 }  // namespace chiaro

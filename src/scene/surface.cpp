@@ -19,15 +19,6 @@ Half half_of(const Mesh& mesh, const Primitive& primitive, const CornerWeights& 
             corner_position(mesh, primitive, w.corners[2])};
 }
 
-// The cross product of edges in object space, along the front side's normal. One half of a quad may
-// have no area; the other then speaks for both.
-Vec3 front_cross(const Mesh& mesh, const Primitive& primitive, const CornerWeights& w) {
-    const Vec3 cross = half_of(mesh, primitive, w).cross();
-    if (!primitive.is_quad() || cross != Vec3(0)) return cross;
-    const CornerWeights other = corner_weights(true, w.corners[0] == 0 ? 1.0f : 0.0f, 0.5f);
-    return half_of(mesh, primitive, other).cross();
-}
-
 template <typename T>
 T blend(const std::vector<T>& values, const Primitive& primitive, const CornerWeights& w) {
     return w.weights[0] * values[primitive.corners[w.corners[0]]] +
@@ -62,6 +53,13 @@ CornerWeights corner_weights(bool is_quad, float u, float v) {
     if (!is_quad) return {{0, 1, 2}, {1 - u - v, u, v}};
     if (u + v <= 1) return {{0, 1, 3}, {1 - u - v, u, v}};
     return {{2, 3, 1}, {u + v - 1, 1 - u, 1 - v}};
+}
+
+Vec3 front_cross(const Mesh& mesh, const Primitive& primitive, const CornerWeights& w) {
+    const Vec3 cross = half_of(mesh, primitive, w).cross();
+    if (!primitive.is_quad() || cross != Vec3(0)) return cross;
+    const CornerWeights other = corner_weights(true, w.corners[0] == 0 ? 1.0f : 0.0f, 0.5f);
+    return half_of(mesh, primitive, other).cross();
 }
 
 Mat3 normal_matrix(const Mat4& to_world) {

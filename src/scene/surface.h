@@ -36,6 +36,10 @@ struct CornerWeights {
 };
 CornerWeights corner_weights(bool is_quad, float u, float v);
 
+/// Cross product, in object space, of two edges of the triangle that `w` blends, along the front
+/// side's normal. One half of a quad may have no area; the other then speaks for both.
+Vec3 front_cross(const Mesh& mesh, const Primitive& primitive, const CornerWeights& w);
+
 /// Geometry at a surface point, in world space. Normals are of unit length, on the front side
 /// (counter-clockwise winding); `shading_normal` is interpolated where the mesh has normals and is
 /// on the same side as `geometric_normal`.
