@@ -1,6 +1,7 @@
 #include "shading_cache/mesh_graph.h"
 
 #include "base/parallel.h"
+#include "shading_cache/mesh_levels.h"
 #include "shading_cache/weld.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ MeshGraph make_mesh_graph(const Mesh& mesh, const LevelSettings& settings, int t
     graph.corner_of_vertex = std::move(weld.corner_of_vertex);
     graph.level.assign(graph.vertex_count(), 0);
     graph.first_parent.assign(graph.vertex_count() + 1, 0);
-    (void)settings;
+    add_levels(mesh, settings, threads, graph);
     return graph;
 }
 

@@ -210,9 +210,9 @@ Weld weld_corners(const Mesh& mesh, int threads) {
 
 Vec3 corner_normal(const Mesh& mesh, MeshCorner corner) {
     const Primitive& p = mesh.primitives[corner.primitive];
-    const float past_diagonal = corner.corner == 2 ? 1.0f : 0.0f;
-    const CornerWeights w = corner_weights(p.is_quad(), past_diagonal, past_diagonal);
-    const Vec3 cross = front_cross(mesh, p, p.is_quad() ? w : CornerWeights{{0, 1, 2}, {}});
+    const float past_diagonal = p.is_quad() && corner.corner == 2 ? 1.0f : 0.0f;
+    const Vec3 cross =
+        front_cross(mesh, p, corner_weights(p.is_quad(), past_diagonal, past_diagonal));
     const Vec3 geometric = safe_normalize(cross, Vec3(0, 0, 1));
     if (mesh.normals.empty()) return geometric;
     const Vec3 normal = safe_normalize(mesh.normals[p.corners[corner.corner]], geometric);
