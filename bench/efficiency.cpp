@@ -14,6 +14,7 @@
 #include "apps/open_scene.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "run_program.h"
 #include "scene/bsdf.h"
 #include "scene/open_sides.h"
 
@@ -21,7 +22,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <fstream>
 
@@ -232,10 +232,5 @@ int run_efficiency(int argc, char** argv) {
 }  // namespace chiaro
 
 int main(int argc, char** argv) {
-    try {
-        return chiaro::run_efficiency(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "efficiency: %s\n", error.what());
-        return 2;
-    }
+    return chiaro::run_program(argc, argv, chiaro::run_efficiency);
 }

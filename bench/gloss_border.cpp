@@ -5,6 +5,7 @@
 // usage: gloss_border [SECONDS]
 
 #include "base/tone_map.h"
+#include "run_program.h"
 #include "sample_renderer/gather_renderer.h"
 #include "sample_renderer/reference_renderer.h"
 #include "scene/shapes.h"
@@ -148,7 +149,8 @@ double psnr(const Stage& stage, const Image& a, const Image& half_1, const Image
 
 }  // namespace
 
-void run_gloss_border(double seconds) {
+int run_gloss_border(int argc, char** argv) {
+    const double seconds = argc > 1 ? std::atof(argv[1]) : 3;
     fmt::print("{{\"seconds\": {}, \"rows\": [", seconds);
     const char* comma = "";
     for (const Thing thing : {Thing::floor, Thing::ball})
@@ -169,15 +171,11 @@ void run_gloss_border(double seconds) {
                 comma = ",";
             }
     fmt::print("\n]}}\n");
+    return 0;
 }
 
 }  // namespace chiaro
 
 int main(int argc, char** argv) {
-    try {
-        chiaro::run_gloss_border(argc > 1 ? std::atof(argv[1]) : 3);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "gloss_border: %s\n", error.what());
-        return 2;
-    }
+    return chiaro::run_program(argc, argv, chiaro::run_gloss_border);
 }

@@ -9,6 +9,7 @@
 #include "base/image_difference.h"
 #include "base/random.h"
 #include "import/image_file.h"
+#include "run_program.h"
 #include "sample_renderer/gather_renderer.h"
 #include "sample_renderer/path_renderer.h"
 #include "sample_renderer/radiance.h"
@@ -202,10 +203,5 @@ int run(int argc, char** argv) {
 }  // namespace chiaro
 
 int main(int argc, char** argv) {
-    try {
-        return chiaro::run(argc, argv);
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "quality_over_time: %s\n", e.what());
-        return 2;
-    }
+    return chiaro::run_program(argc, argv, chiaro::run);
 }

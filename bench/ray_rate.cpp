@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "furnished_box.h"
 #include "rays/ray_caster.h"
+#include "run_program.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -188,10 +189,5 @@ int run(int argc, char** argv) {
 }  // namespace chiaro
 
 int main(int argc, char** argv) {
-    try {
-        return chiaro::run(argc, argv);
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "ray_rate: %s\n", e.what());
-        return 2;
-    }
+    return chiaro::run_program(argc, argv, chiaro::run);
 }

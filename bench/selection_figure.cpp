@@ -5,9 +5,9 @@
 #include "base/parallel.h"
 #include "base/tone_map.h"
 #include "import/image_file.h"
+#include "run_program.h"
 #include "sample_renderer/path_renderer.h"
 
-#include <cstdio>
 #include <filesystem>
 
 namespace chiaro {
@@ -103,10 +103,5 @@ int run(int argc, char** argv) {
 }  // namespace chiaro
 
 int main(int argc, char** argv) {
-    try {
-        return chiaro::run(argc, argv);
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "selection_figure: %s\n", e.what());
-        return 2;
-    }
+    return chiaro::run_program(argc, argv, chiaro::run);
 }
