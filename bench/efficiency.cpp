@@ -14,6 +14,7 @@
 #include "apps/open_scene.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "figures.h"
 #include "run_program.h"
 #include "scene/bsdf.h"
 #include "scene/open_sides.h"
@@ -22,7 +23,6 @@
 
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <fstream>
 
 namespace chiaro {
@@ -43,12 +43,6 @@ struct Settings {
     int across = 24;
     int runs = 4;
 };
-
-double processor_seconds() {
-    timespec t = {};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 struct Stage {
     Scene scene;

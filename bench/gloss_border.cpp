@@ -5,6 +5,7 @@
 // usage: gloss_border [SECONDS]
 
 #include "base/tone_map.h"
+#include "figures.h"
 #include "run_program.h"
 #include "sample_renderer/gather_renderer.h"
 #include "sample_renderer/reference_renderer.h"
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 
 namespace chiaro {
 namespace {
@@ -28,12 +28,6 @@ enum class Kind { metal, plastic };
 constexpr int kWidth = 240, kHeight = 180;
 constexpr double kReferenceSeconds = 8;  // of each half
 constexpr MaterialId kWall{0}, kRed{1}, kBlue{2}, kLamp{3}, kGlossy{4};
-
-double processor_seconds() {
-    timespec t = {};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 Material paint(Rgb color) {
     Material m;

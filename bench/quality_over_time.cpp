@@ -1,54 +1,63 @@
-// Error against the reference over time, for the best scheme, the paper's and per-pixel path
-// tracing, in one run on one machine with the same rays and lights. Prints JSON.
+// Error against the reference over time, for schemes of the cache and per-pixel path tracing, in
+// one run on one machine with the same rays and lights. Prints JSON.
 //
 // The reference comes in two independent halves, and errors are cross products with both, so that
 // its own noise cancels. Time is wall time after loading. The cache is charged with drawing the
 // picture that is measured, once; pictures drawn before it, only to be measured, are free.
+//
+// --bisect halves the scene's edges until they are short. Its surfaces stay where they are, and so
+// the reference is that of the plain scene.
 
 #include "apps/open_scene.h"
-#include "base/image_difference.h"
 #include "base/random.h"
+#include "base/tone_map.h"
+#include "figures.h"
 #include "import/image_file.h"
+#include "quality_methods.h"
 #include "run_program.h"
-#include "sample_renderer/gather_renderer.h"
-#include "sample_renderer/path_renderer.h"
 #include "sample_renderer/radiance.h"
 #include "sample_renderer/reference_renderer.h"
+#include "scene/bisect_edges.h"
 
 #include <fmt/format.h>
 
 #include <bit>
-#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 namespace chiaro {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-struct Reference {
-    Image half_1, half_2;
+struct Settings {
+    double seconds = 20, path_seconds = 60;
+    int spp = 256;
+    std::string name = "scene", folder = "out/quality";
+    float bisect = 0;
+    std::vector<std::string> methods = {"best", "traced", "paper", "path"};
+    std::string pictures;
+    std::vector<double> picture_times = {0.25, 0.5, 1, 2, 4};
 };
 
-// All that the methods share.
-struct Stage {
-    Scene scene;
-    RayCaster rays;
-    AreaLights area_lights;
-    View view;
-    int threads;
-
-    Stage(Scene s, const Camera& camera, const PictureSize& size, int n)
-        : scene(std::move(s)),
-          rays(scene, n),
-          area_lights(scene),
-          view(camera, size.width, size.height),
-          threads(n) {}
-    Stage(const Stage&) = delete;
-    Stage& operator=(const Stage&) = delete;
-};
+void add_options(CLI::App& app, Settings& s) {
+    app.add_option("--seconds", s.seconds, "for each scheme of the cache");
+    app.add_option("--path-seconds", s.path_seconds, "for path tracing");
+    app.add_option("--spp", s.spp, "paths a pixel of each half of the reference");
+    app.add_option("--name", s.name, "of the scene, in the files that are kept");
+    app.add_option("--folder", s.folder, "where references are kept");
+    app.add_option("--bisect", s.bisect,
+                   "halve edges until none is longer than this part of the scene's diagonal, as "
+                   "200 for 1/200")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--methods", s.methods, "of best, roots, traced, paper, path")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--pictures", s.pictures, "a folder for pictures at several times");
+    app.add_option("--picture-times", s.picture_times, "those times in seconds, ascending")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+}
 
 // Tells scenes and cameras apart, so that no reference is taken for another's.
 std::uint32_t fingerprint(const Scene& scene, const View& view) {
@@ -72,130 +81,93 @@ std::uint32_t fingerprint(const Scene& scene, const View& view) {
     return h;
 }
 
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
+// Halves that were made before are read from their files, which begin with `stem`.
+Reference find_reference(const Scene& scene, const View& view, int threads, int spp,
+                         const std::string& stem) {
+    std::optional<Stage> stage;
+    const auto half = [&](int number) {
+        const std::string file = fmt::format("{}_{}.exr", stem, number);
+        if (std::filesystem::exists(file)) return read_image(file);
+        if (!stage) stage.emplace(scene, view, threads);
+        ReferenceRenderer renderer(make_lit_scene(stage->scene, stage->rays, stage->area_lights),
+                                   view, {1000u + number, threads});
+        renderer.add_pass(static_cast<std::uint32_t>(spp));
+        const Image image = renderer.image();
+        write_exr(file, image);
+        return image;
+    };
+    return {half(1), half(2)};
 }
 
-Image reference_half(const Stage& stage, int spp, std::uint32_t seed, const std::string& file) {
-    if (std::filesystem::exists(file)) return read_image(file);
-    ReferenceRenderer renderer(make_lit_scene(stage.scene, stage.rays, stage.area_lights),
-                               stage.view, {seed, stage.threads});
-    renderer.add_pass(static_cast<std::uint32_t>(spp));
-    const Image image = renderer.image();
-    write_exr(file, image);
+Image mean(const Reference& reference) {
+    Image image = reference.half_1;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = 0.5f * (image.pixels[i] + reference.half_2.pixels[i]);
     return image;
-}
-
-// Times at which to measure: each a fifth later than the one before.
-struct Checkpoints {
-    double next = 0.02;
-    bool due(double seconds) {
-        if (seconds < next) return false;
-        while (next <= seconds) next *= 1.2;
-        return true;
-    }
-};
-
-nlohmann::json row(double seconds, const Image& picture, const Reference& reference) {
-    const ImageDifference d = difference(picture, reference.half_1, reference.half_2);
-    return {{"seconds", seconds}, {"psnr", d.psnr}, {"relmse", d.relmse}};
-}
-
-template <typename Renderer>
-nlohmann::json measure_cache(const Stage& stage, Scheme scheme, double seconds,
-                             const Reference& reference) {
-    OpenSides open_sides(stage.scene);
-    Renderer renderer(stage.scene, stage.rays, stage.area_lights, &open_sides, stage.threads);
-    UpdateSettings settings;
-    settings.scheme = scheme;
-    settings.threads = stage.threads;
-
-    nlohmann::json rows = nlohmann::json::array();
-    Checkpoints checkpoints;
-    double spent = 0;
-    auto start = Clock::now();
-    UpdateCycle cycle(stage.rays, stage.graphs, renderer, open_sides, settings);
-    cycle.look_from(stage.view);
-    for (bool first = true; spent < seconds; first = false) {
-        cycle.run();
-        spent += seconds_since(start);
-        if (first || checkpoints.due(spent)) {
-            const auto drawing = Clock::now();
-            const Image picture = cycle.picture();
-            // A picture that is looked at has to be drawn once.
-            const double draw_seconds = seconds_since(drawing);
-            rows.push_back(row(spent + draw_seconds, picture, reference));
-            rows.back()["bytes_per_patch"] = static_cast<double>(cycle.bytes()) /
-                                             static_cast<double>(cycle.cache().patches().size());
-            rows.back()["points"] = cycle.statistics().points_shaded;
-        }
-        start = Clock::now();
-    }
-    return rows;
-}
-
-nlohmann::json measure_path_tracing(const Stage& stage, double seconds,
-                                    const Reference& reference) {
-    nlohmann::json rows = nlohmann::json::array();
-    Checkpoints checkpoints;
-    double spent = 0;
-    auto start = Clock::now();
-    ReferenceRenderer renderer(make_lit_scene(stage.scene, stage.rays, stage.area_lights),
-                               stage.view, {77, stage.threads});
-    while (spent < seconds) {
-        renderer.add_pass(1);
-        spent += seconds_since(start);
-        if (renderer.samples() <= 4 || checkpoints.due(spent)) {
-            rows.push_back(row(spent, renderer.image(), reference));
-            rows.back()["spp"] = renderer.samples();
-        }
-        start = Clock::now();
-    }
-    return rows;
 }
 
 }  // namespace
 
 int run(int argc, char** argv) {
     Options options;
-    double seconds = 20, path_seconds = 60;
-    int spp = 256;
-    std::string name = "scene", folder = "out/quality";
+    Settings settings;
     CLI::App app("Error over time of the Shading Cache and of path tracing.");
     add_scene_options(app, options);
     add_view_options(app, options);
     add_render_options(app, options);
-    app.add_option("--seconds", seconds, "for each scheme of the cache");
-    app.add_option("--path-seconds", path_seconds, "for path tracing");
-    app.add_option("--spp", spp, "paths a pixel of each half of the reference");
-    app.add_option("--name", name, "of the scene, in the files that are kept");
-    app.add_option("--folder", folder, "where references are kept");
+    add_options(app, settings);
     CLI11_PARSE(app, argc, argv);
 
+    std::vector<const Method*> methods;
+    for (const std::string& name : settings.methods) methods.push_back(&method_of(name));
     const int threads = thread_count(options);
     const PictureSize size = parse_size(options.size);
     Scene scene = open_scene(options);
     const Camera camera = choose_camera(scene, options);
     add_headlamp_if_dark(scene, camera);
-    const Stage stage(std::move(scene), camera, size, threads);
+    const View view(camera, size.width, size.height);
 
-    std::filesystem::create_directories(folder);
-    const std::string stem = fmt::format("{}/{}_{}_{}_{:08x}", folder, name, options.size, spp,
-                                         fingerprint(stage.scene, stage.view));
-    const Reference reference = {reference_half(stage, spp, 1001, stem + "_1.exr"),
-                                 reference_half(stage, spp, 1002, stem + "_2.exr")};
+    std::filesystem::create_directories(settings.folder);
+    const std::string stem = fmt::format("{}/{}_{}_{}_{:08x}", settings.folder, settings.name,
+                                         options.size, settings.spp, fingerprint(scene, view));
+    const Reference reference = find_reference(scene, view, threads, settings.spp, stem);
+
+    const Stopwatch bisecting;
+    if (settings.bisect > 0) bisect_edges(scene, bounds(scene).diagonal() / settings.bisect);
+    const double bisecting_seconds = bisecting.seconds();
+    const Stage stage(std::move(scene), view, threads);
+
+    const Image truth = mean(reference);
+    const Measuring measuring = {
+        .stage = stage,
+        .reference = reference,
+        .seconds = settings.seconds,
+        .path_seconds = settings.path_seconds,
+        .picture_folder = settings.pictures,
+        .picture_times = settings.picture_times,
+        .exposure = options.exposure ? std::exp2(*options.exposure) : automatic_exposure(truth)};
+    if (!settings.pictures.empty()) {
+        std::filesystem::create_directories(settings.pictures);
+        keep_picture(measuring, "reference", truth);
+    }
+
     nlohmann::ordered_json result;
-    result["scene"] = name;
+    result["scene"] = settings.name;
     result["size"] = options.size;
     result["threads"] = threads;
-    result["reference_spp"] = 2 * spp;
-    result["methods"]["best"] =
-        measure_cache<GatherRenderer>(stage, Scheme::best, seconds, reference);
-    result["methods"]["best, traced"] =
-        measure_cache<PathRenderer>(stage, Scheme::best, seconds, reference);
-    result["methods"]["paper"] =
-        measure_cache<PathRenderer>(stage, Scheme::paper, seconds, reference);
-    result["methods"]["path"] = measure_path_tracing(stage, path_seconds, reference);
+    result["reference_spp"] = 2 * settings.spp;
+    result["bisect"] = settings.bisect;
+    result["loading"] = {{"triangles", triangle_count(stage.scene)},
+                         {"bisecting_seconds", bisecting_seconds},
+                         {"embree_seconds", stage.loading.embree_seconds},
+                         {"embree_bytes", stage.loading.embree_bytes},
+                         {"area_lights_seconds", stage.loading.area_lights_seconds}};
+    for (const Method* method : methods) {
+        nlohmann::ordered_json measured = measure(*method, measuring);
+        result["methods"][method->title] = measured["rows"];
+        measured.erase("rows");
+        result["of_methods"][method->title] = measured;
+    }
     std::printf("%s\n", result.dump(1).c_str());
     return 0;
 }

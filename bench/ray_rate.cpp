@@ -6,6 +6,7 @@
 
 #include "apps/make_renderer.h"
 #include "base/random.h"
+#include "figures.h"
 #include "furnished_box.h"
 #include "rays/ray_caster.h"
 #include "run_program.h"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <numeric>
 
 namespace chiaro {
@@ -32,12 +32,6 @@ struct Settings {
     int points = 300;
     int repetitions = 11;
 };
-
-double thread_seconds() {
-    timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 // Points spread evenly over the area of all surfaces, on their fronts.
 std::vector<ShadeRequest> spread_points(const Scene& scene, int count, std::uint32_t seed) {
