@@ -88,9 +88,14 @@ struct Stage {
     Scene scene;
     RayCaster rays;
     AreaLights area_lights;
+    MeshGraphs graphs;
     View view = look_at_it();
 
-    explicit Stage(Scene s) : scene(std::move(s)), rays(scene, 1), area_lights(scene) {}
+    explicit Stage(Scene s)
+        : scene(std::move(s)),
+          rays(scene, 1),
+          area_lights(scene),
+          graphs(scene, coarser_levels(Scheme::best), 1) {}
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 };

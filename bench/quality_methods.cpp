@@ -96,15 +96,6 @@ private:
     std::size_t next_picture_ = 0;
 };
 
-// The one place where the cache is told of levels coarser than the meshes.
-UpdateCycle make_cycle(const Stage& stage, const Method& method, SampleRenderer& renderer,
-                       OpenSides& open_sides) {
-    UpdateSettings settings;
-    settings.scheme = method.scheme;
-    settings.threads = stage.threads;
-    return {stage.rays, renderer, open_sides, settings};
-}
-
 // Triangles that the view shows any of; a quad is two.
 std::size_t visible_triangles(const ShadingCache& cache) {
     std::unordered_set<std::uint32_t> primitives;
@@ -123,10 +114,16 @@ Json measure_cache(const Method& method, const Measuring& measuring) {
     const auto renderer = make_renderer(method.renderer, stage.scene, stage.rays, stage.area_lights,
                                         &open_sides, stage.threads);
     Recorder recorder(method, measuring);
-    Json loading = Json::object();
-    double spent = 0;
+    Json loading;
     Stopwatch watch;
-    UpdateCycle cycle = make_cycle(stage, method, *renderer, open_sides);
+    const MeshGraphs graphs(stage.scene, method.levels, stage.threads);
+    loading["graphs_seconds"] = watch.seconds();
+    loading["graphs_bytes"] = graphs.bytes();
+
+    double spent = 0;
+    watch.restart();
+    UpdateCycle cycle(stage.rays, graphs, *renderer, open_sides,
+                      {.scheme = method.scheme, .threads = stage.threads});
     cycle.look_from(stage.view);
     for (bool first = true; first || spent < measuring.seconds; first = false) {
         cycle.run();

@@ -77,6 +77,7 @@ int run(int argc, char** argv) {
     settings.scheme = Scheme::paper;
     settings.threads = hardware_threads();
     settings.fixed_size = true;
+    const MeshGraphs graphs(scene, coarser_levels(settings.scheme), settings.threads);
     PathRenderer renderer(scene, rays, area_lights, &open_sides, settings.threads);
     UpdateCycle cycle(rays, graphs, renderer, open_sides, settings);
     cycle.look_from(View(choose_camera(scene, options), size.width, size.height));
