@@ -19,6 +19,7 @@ bool concerned(const ShadingCache& cache, VertexId vertex, int channel) {
 void MeshFront::attach(const ShadingCache& cache) {
     vertices_.clear();
     levels_.clear();
+    gains_.clear();
     for (std::size_t i = 0; i < cache.vertices().size(); ++i) {
         if (!cache.vertices()[i].of_mesh) continue;
         const auto id = static_cast<VertexId>(i);
@@ -147,6 +148,7 @@ void MeshFront::reckon(const ShadingCache& cache, VertexId vertex, int channel,
 }
 
 void MeshFront::rest(VertexId vertex, int channel) {
+    if (gains_.empty()) return;
     const std::size_t place = place_of(vertex);
     if (place != kNowhere) gains_[channel].set(place, 0);
 }

@@ -20,6 +20,7 @@ namespace chiaro {
 class MeshFront {
 public:
     /// Takes up all vertices of meshes and weighs them in the view that is attached to the cache.
+    /// None is drawn before reckon().
     void attach(const ShadingCache& cache);
 
     std::span<const VertexId> vertices() const { return vertices_; }  // in order

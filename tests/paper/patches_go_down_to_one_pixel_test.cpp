@@ -30,6 +30,7 @@ private:
 struct Refining {
     Scene scene;
     RayCaster caster;
+    MeshGraphs graphs;
     OpenSides open_sides;
     ShadowEdge renderer;
     UpdateCycle update;
@@ -37,9 +38,10 @@ struct Refining {
     explicit Refining(int size)
         : scene(make_scene()),
           caster(scene, 1),
+          graphs(scene, CoarserLevels::none, 1),
           open_sides(scene),
           renderer(scene),
-          update(caster, renderer, open_sides, settings()) {
+          update(caster, graphs, renderer, open_sides, settings()) {
         update.look_from(
             View({.eye = {0, 0, 1}, .target = Vec3(0), .vertical_fov = 90}, size, size));
     }

@@ -183,7 +183,7 @@ TEST(Pack, GivesAllMemoryBack) {
     EXPECT_EQ(d.cache.patches().size(), 6u);
     EXPECT_EQ(d.cache.vertices().size(), 12u);
     EXPECT_LT(d.cache.bytes(), full);
-    ShadingCache fresh(d.scene, {1}, SplitRule::by_shape);
+    ShadingCache fresh(d.scene, d.graphs, {1}, SplitRule::by_shape);
     front_roots(fresh);
     store_constant(fresh, Rgb(1));
     fresh.pack();
