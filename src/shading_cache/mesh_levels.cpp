@@ -68,7 +68,11 @@ std::vector<LevelVertex> order_vertices(const Mesh& mesh, const CellGrid& grid, 
             const MeshCorner corner = corner_at(mesh, index);
             graph.corner_of_vertex[i] = index;
             new_number[order[i].index] = static_cast<std::uint32_t>(i);
-            vertices[i] = {order[i].key, corner_position(mesh, corner), corner_normal(mesh, corner),
+            const Vec3 position = corner_position(mesh, corner);
+            vertices[i] = {order[i].key,
+                           position,
+                           position,
+                           corner_normal(mesh, corner),
                            mesh.primitives[corner.primitive].material,
                            static_cast<std::uint32_t>(i)};
         }

@@ -14,7 +14,8 @@ namespace chiaro {
 struct LevelVertex {
     std::uint64_t cell;  // code of the finest grid's cell
     Vec3 position;
-    Vec3 normal;  // unit; on coarser levels the mean of those it stands for
+    Vec3 centre;  // mean position of those it stands for, itself on the finest level
+    Vec3 normal;  // unit; the mean of theirs
     MaterialId material;
     std::uint32_t vertex;
 };

@@ -36,12 +36,13 @@ GroupedVertex grouped(const LevelVertex& v, std::size_t index) {
     return {material << 3 | direction_of(v.normal), static_cast<std::uint32_t>(index)};
 }
 
-// The one nearest the mean of all; the first of several.
+// The one nearest the middle of what all stand for; the first of several. The middle of their own
+// places would let regular meshes choose the same corner of each cell again and again.
 std::uint32_t most_central(std::span<const LevelVertex> vertices,
                            std::span<const GroupedVertex> group) {
     const Vec3 origin = vertices[group[0].index].position;
     Vec3 mean(0);
-    for (const GroupedVertex& g : group) mean += vertices[g.index].position - origin;
+    for (const GroupedVertex& g : group) mean += vertices[g.index].centre - origin;
     mean /= static_cast<float>(group.size());
     std::uint32_t best = group[0].index;
     float least = kInfinity;
@@ -61,18 +62,21 @@ void choose_in_group(std::span<LevelVertex> vertices, std::span<GroupedVertex> g
     for (int sheet = 0; sheet < kMostSheets && !group.empty(); ++sheet) {
         const std::uint32_t chosen = most_central(vertices, group);
         LevelVertex& representative = vertices[chosen];
-        Vec3 normal(0);
+        Vec3 normal(0), centre(0);
         std::size_t left = 0;
         for (const GroupedVertex& g : group) {
             const LevelVertex& v = vertices[g.index];
             if (g.index == chosen || continues(v, representative, cell)) {
                 representatives[g.index] = chosen;
                 normal += v.normal;
+                centre += v.centre - representative.position;
             } else {
                 group[left++] = g;
             }
         }
         representative.normal = safe_normalize(normal, representative.normal);
+        representative.centre =
+            representative.position + centre / static_cast<float>(group.size() - left);
         group = group.first(left);
     }
     for (const GroupedVertex& g : group) representatives[g.index] = g.index;
