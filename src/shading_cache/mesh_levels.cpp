@@ -119,7 +119,7 @@ void find_parents(std::span<const LevelVertex> vertices,
                 ParentSet& set = parents[vertices[i].vertex];
                 set = choose_parents(vertices[i], near, grid.cell);
                 // Its representative continued its surface before it got its mean normal.
-                if (set.weights[0] == 0)
+                if (set.empty())
                     set = {{vertices[representatives[i]].vertex}, {MeshGraph::kFullWeight}};
             }
         });

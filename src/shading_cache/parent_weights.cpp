@@ -19,54 +19,92 @@ constexpr float kMostUnevenness = 0.5f;
 
 // A parent as seen from the vertex.
 struct Neighbor {
-    Vec2 place = Vec2(0);  // in the tangent plane, in cells
-    float squared_distance = kInfinity;
+    glm::dvec2 place = glm::dvec2(0);  // in the tangent plane, in cells
+    double squared_distance = kInfinity;
+    double weight = 0;
     std::uint32_t vertex = 0;
-    float weight = 0;
 };
 
-// Value at the origin of the linear function that fits values at `near` best, with weights that
-// decrease with the distance: the weights of those values in it. Their sum is 1.
-void fit_linear(std::span<Neighbor> near) {
-    float total = 0;
-    Vec2 mean(0);
-    for (Neighbor& n : near) {
-        n.weight = 1 / (n.squared_distance + 0.01f);
-        total += n.weight;
-        mean += n.weight * n.place;
+using Neighbors = std::array<Neighbor, 4>;
+
+// Weights of values at those of `near` whose bit is set in `subset`, others 0, in the value at the
+// origin of the linear function that fits these values best, the nearer the better. Their sum is 1.
+void fit_linear(Neighbors& near, unsigned subset) {
+    double total = 0;
+    glm::dvec2 mean(0);
+    for (unsigned i = 0; i < near.size(); ++i) {
+        near[i].weight = subset >> i & 1 ? 1 / (near[i].squared_distance + 0.01) : 0;
+        total += near[i].weight;
+        mean += near[i].weight * near[i].place;
     }
     mean /= total;
-    float xx = 0, xy = 0, yy = 0;
+    double xx = 0, xy = 0, yy = 0;
     for (const Neighbor& n : near) {
-        const Vec2 d = n.place - mean;
+        const glm::dvec2 d = n.place - mean;
         xx += n.weight * d.x * d.x;
         xy += n.weight * d.x * d.y;
         yy += n.weight * d.y * d.y;
     }
     // Where all lie on a line, nothing is known of slopes across it: zero.
-    const float ridge = 1e-4f * (xx + yy) + 1e-12f;
+    const double ridge = 1e-4 * (xx + yy) + 1e-9 * total;
     xx += ridge;
     yy += ridge;
-    const Vec2 slope =
-        Vec2(yy * mean.x - xy * mean.y, xx * mean.y - xy * mean.x) / (xx * yy - xy * xy);
+    const glm::dvec2 slope =
+        glm::dvec2(yy * mean.x - xy * mean.y, xx * mean.y - xy * mean.x) / (xx * yy - xy * xy);
     for (Neighbor& n : near) n.weight *= 1 / total - glm::dot(n.place - mean, slope);
 }
 
+bool no_weight_is_negative(const Neighbors& near) {
+    return std::ranges::all_of(near, [](const Neighbor& n) { return n.weight >= 0; });
+}
+
+// How far weights are from speaking of the origin, before all, and how far away those are on which
+// they lie.
+double defect(const Neighbors& near) {
+    glm::dvec2 place(0);
+    double spread = 0;
+    for (const Neighbor& n : near) {
+        place += n.weight * n.place;
+        if (n.weight > 0) spread += n.weight * n.squared_distance;
+    }
+    return 100 * glm::dot(place, place) + spread;
+}
+
+// Weights >= 0: of all that are there or, where some would weigh less than nothing, of those that
+// do best without the others.
+void weigh(Neighbors& near) {
+    unsigned all = 0;
+    for (unsigned i = 0; i < near.size(); ++i)
+        if (near[i].squared_distance < kInfinity) all |= 1U << i;
+    fit_linear(near, all);
+    if (no_weight_is_negative(near)) return;
+    unsigned best = 0;
+    double least = kInfinity;
+    for (unsigned subset = 1; subset < all; ++subset) {
+        if ((subset & all) != subset) continue;
+        fit_linear(near, subset);
+        if (!no_weight_is_negative(near) || defect(near) >= least) continue;
+        least = defect(near);
+        best = subset;
+    }
+    fit_linear(near, best);
+}
+
 // To multiples of 1 / kFullWeight, the largest remainders rounded up.
-ParentSet quantized(std::span<const Neighbor> near) {
+ParentSet quantized(const Neighbors& near) {
     ParentSet result;
-    std::array<float, 4> missing = {};
+    std::array<double, 4> missing;
     int left = MeshGraph::kFullWeight;
     for (std::size_t i = 0; i < near.size(); ++i) {
-        const float exact = MeshGraph::kFullWeight * std::clamp(near[i].weight, 0.0f, 1.0f);
+        const double exact = MeshGraph::kFullWeight * near[i].weight;
         const int whole = std::min(static_cast<int>(exact), left);
         result.vertices[i] = near[i].vertex;
         result.weights[i] = static_cast<std::uint8_t>(whole);
-        missing[i] = exact - static_cast<float>(whole);
+        missing[i] = exact - whole;
         left -= whole;
     }
     for (; left > 0; --left) {
-        const auto most = std::max_element(missing.begin(), missing.begin() + near.size());
+        const auto most = std::ranges::max_element(missing);
         ++result.weights[most - missing.begin()];
         *most -= 1;
     }
@@ -95,7 +133,8 @@ ParentSet choose_parents(const LevelVertex& vertex, std::span<const LevelVertex>
     // Vertices of regular meshes lie along the frame's axes: quadrants are turned from these.
     constexpr float kTurnCosine = 0.9211f, kTurnSine = 0.3894f;
     const Frame frame(vertex.normal);
-    std::array<Neighbor, 4> nearest;
+    Neighbors nearest;
+    bool any = false;
     for (const LevelVertex& candidate : candidates) {
         if (!continues(vertex, candidate, cell)) continue;
         const Vec3 d = (candidate.position - vertex.position) / cell;
@@ -104,23 +143,12 @@ ParentSet choose_parents(const LevelVertex& vertex, std::span<const LevelVertex>
         const int above = kTurnCosine * place.y - kTurnSine * place.x > 0;
         Neighbor& n = nearest[2 * above + right];
         const float squared = glm::dot(d, d);
-        if (squared < n.squared_distance) n = {place, squared, candidate.vertex};
+        if (squared < n.squared_distance) n = {place, squared, 0, candidate.vertex};
+        any = true;
     }
-    auto end = std::remove_if(nearest.begin(), nearest.end(),
-                              [](const Neighbor& n) { return n.squared_distance == kInfinity; });
-
-    // Those on the far side of others would weigh less than nothing: done without, one by one.
-    while (end - nearest.begin() > 1) {
-        fit_linear({nearest.begin(), end});
-        const auto least = std::min_element(
-            nearest.begin(), end,
-            [](const Neighbor& a, const Neighbor& b) { return a.weight < b.weight; });
-        if (least->weight >= 0) break;
-        end = std::move(least + 1, end, least);
-    }
-    if (end == nearest.begin()) return {};
-    if (end == nearest.begin() + 1) nearest[0].weight = 1;
-    return quantized({nearest.begin(), end});
+    if (!any) return {};
+    weigh(nearest);
+    return quantized(nearest);
 }
 
 }  // namespace chiaro

@@ -25,6 +25,8 @@ struct LevelVertex {
 struct ParentSet {
     std::array<std::uint32_t, 4> vertices = {};
     std::array<std::uint8_t, 4> weights = {};
+
+    bool empty() const { return weights == std::array<std::uint8_t, 4>{}; }
 };
 
 /// True if the two are of one material, less than two cells apart, turned from each other by less
