@@ -67,10 +67,12 @@ LandedOn shine(const LitScene& lit, int threads) {
 SampledSurfaces bright_surfaces(const LitScene& lit, int threads) {
     const Scene& scene = lit.scene;
     const LandedOn landed = shine(lit, threads);
+    std::vector<float> reflectances;
+    for (const Material& material : scene.materials)
+        reflectances.push_back(luminance(mean_reflectance(scene, material)));
     const auto reflected = [&](ObjectId object, std::uint32_t primitive) {
         const MaterialId material = material_of(scene, {object, primitive});
-        return landed[index_of(object)][primitive].flux *
-               luminance(mean_reflectance(scene, scene.material(material)));
+        return landed[index_of(object)][primitive].flux * reflectances[index_of(material)];
     };
 
     // The mean over the area that any light fell on.

@@ -111,20 +111,21 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
     const Patch& patch = cache.patch(id);
     const float pixels = cache.pixels(patch, channel);
     if (!(pixels > 0)) return {};
+    // Corners that are predicted from coarser levels come first (MeshFront).
+    for (int i = 0; i < patch.corner_count(); ++i)
+        if (!cache.evaluated(patch.corners[i], channel)) return {};
+
     Survey corners;
     float picture = 0;
-    bool all_known = true;
     const float part = 1.0f / static_cast<float>(patch.corner_count());
     for (int i = 0; i < patch.corner_count(); ++i) {
         corners.add(cache, patch.corners[i], channel, part);
         picture += part * settings.scale.shown(cache, patch, patch.corners[i]);
-        all_known &= cache.evaluated(patch.corners[i], channel);
     }
     const float slope = to_curve(cache, channel, settings.scale, patch.reflectance, picture);
 
     Gain result;
-    // Corners that are predicted from coarser levels come first (MeshFront).
-    if (all_known && patch.fragment_count > 1 && patch.divisible()) {
+    if (patch.fragment_count > 1 && patch.divisible()) {
         float seen2 = corners.error2() * slope * slope + settings.epsilon * settings.epsilon;
         if (corners.buried + 1 >= corners.count) seen2 += kUnseen * kUnseen;
         const bool across =

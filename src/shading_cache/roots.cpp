@@ -43,7 +43,7 @@ PatchId ShadingCache::root(ObjectId object, std::uint32_t primitive, bool front)
         patch.corners[c] = mesh_vertex(place, static_cast<MeshVertexId>(vertex), corner);
     }
     roots_[side] = static_cast<PatchId>(patches_.size());
-    append(patches_, patch);
+    append(patches_, patch, kAtOnce);
     return roots_[side];
 }
 

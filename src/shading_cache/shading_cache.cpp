@@ -129,12 +129,13 @@ VertexId ShadingCache::add_vertex(PatchId id, Vec2 local, std::span<const Vertex
 }
 
 VertexId ShadingCache::add_vertex(const CacheVertex& vertex) {
-    append(vertices_, vertex);
-    append(changed_, std::uint8_t{0});
+    const std::size_t part = vertex.of_mesh ? kAtOnce : 32;
+    append(vertices_, vertex, part);
+    append(changed_, std::uint8_t{0}, part);
     const auto made = static_cast<VertexId>(vertices_.size() - 1);
     for (int c = 0; c < channels(); ++c) {
-        append(slots_[c], kNoSlot);
-        append(shown_[c], std::uint32_t{0});
+        append(slots_[c], kNoSlot, part);
+        append(shown_[c], std::uint32_t{0}, part);
     }
     resolve_vertex(made);
     return made;

@@ -160,6 +160,8 @@ private:
     SurfacePoint place(std::uint32_t surface_side, Vec2 uv) const;
     void pack_channels(const std::vector<char>& vertex_kept);
 
+    static constexpr std::size_t kAtOnce = 8;  // roots come by the view: append()
+
     const Scene* scene_;
     const MeshGraphs* graphs_;
     SplitRule rule_;
@@ -185,10 +187,11 @@ private:
     std::size_t first_changed_ = kNothing;  // no vertex before it has changed
 };
 
-/// Appends with capacity growing by a 32nd: memory is part of what we promise.
+/// Appends with capacity growing by a part of it: a 32nd, as memory is part of what we promise, or
+/// more where many come at once.
 template <typename T>
-void append(std::vector<T>& array, const T& value) {
-    if (array.size() == array.capacity()) array.reserve(array.size() + array.size() / 32 + 64);
+void append(std::vector<T>& array, const T& value, std::size_t part = 32) {
+    if (array.size() == array.capacity()) array.reserve(array.size() + array.size() / part + 64);
     array.push_back(value);
 }
 

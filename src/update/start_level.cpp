@@ -42,18 +42,16 @@ StartLevel choose_start_level(const ShadingCache& cache, const MeshFront& mesh, 
     const auto counts = mesh.count_by_level(cache.shading(channel));
     if (static_cast<double>(counts[0]) <= kPatience * static_cast<double>(most)) return {0, fewest};
 
-    for (int level = 1; level + 1 < MeshFront::kLevels; ++level) {
-        if (counts[level] > most) continue;
+    for (int level = 1;; ++level) {
+        const bool coarsest = level + 1 == MeshFront::kLevels || counts[level + 1] == 0;
         // What patches that are larger than a vertex's part of the view are to be divided into.
         const double part = total / std::max<double>(1, static_cast<double>(counts[level]));
         double divided = 0;
         for (const float pixels : roots)
             if (pixels > part) divided += pixels / part;
         const std::size_t vertices = counts[level] + static_cast<std::size_t>(divided);
-        if (vertices <= most || counts[level + 1] == counts[level])
-            return {level, std::min(vertices, most)};
+        if (vertices <= most || coarsest) return {level, std::min(vertices, most)};
     }
-    return {MeshFront::kLevels - 1, most};
 }
 
 void even_out(ShadingCache& cache, IdMap& map, const MeshFront& mesh, int channel,
@@ -92,10 +90,11 @@ std::vector<VertexId> missing_in_view(const ShadingCache& cache, const MeshFront
     };
     for (std::size_t place = 0; place < mesh.vertices().size(); ++place) {
         if (!mesh.in_view(place, cache.shading(channel))) continue;
-        if (mesh.level(place) >= start_level)
-            want(mesh.vertices()[place]);
+        const VertexId id = mesh.vertices()[place];
+        if (mesh.level(place) >= start_level || cache.vertex(id).known_parents().empty())
+            want(id);
         else
-            passed[index_of(mesh.vertices()[place])] = 1;
+            passed[index_of(id)] = 1;
     }
     for (std::size_t i = 0; i < cache.patches().size(); ++i) {
         const Patch& p = cache.patches()[i];

@@ -143,6 +143,10 @@ void UpdateCycle::start() {
     {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
         mesh_front_.attach(cache_);
+    }
+    if (!settings_.fixed_size && cost_learning_ == 0) measure_costs();
+    {
+        const StepTimer timer(statistics_.timings, Step::patch_subdivision);
         const double seconds = settings_.fixed_size
                                    ? kFixedFirstPictureSeconds
                                    : settings_.first_picture_seconds * threads_at_once();
@@ -184,6 +188,26 @@ double UpdateCycle::first_picture_share(int channel) const {
     if (plans_[channel].light == Light::glossy) return glossy;
     return (1 - glossy) *
            (plans_[channel].light == Light::direct ? kDirectShare : 1 - kDirectShare);
+}
+
+// What samples cost in this scene on this machine, by a few vertices that the first picture needs
+// in any case. The first half of them pays for what a renderer learns once.
+void UpdateCycle::measure_costs() {
+    constexpr std::size_t kVertices = 64;
+    for (int half = 0; half < 2; ++half) {
+        cost_learning_ = static_cast<float>(half);
+        for (int c = 0; c < cache_.channels(); ++c) {
+            int level = MeshFront::kLevels - 1;
+            std::vector<VertexId> vertices;
+            while (level >= 0 && vertices.size() < kVertices)
+                vertices = missing_in_view(cache_, mesh_front_, c, level--);
+            ShadeWork work = new_work();
+            evaluate(std::span(vertices).first(std::min(kVertices, vertices.size())), c,
+                     plans_[c].first_samples, work);
+            shade(work);
+        }
+    }
+    cost_learning_ = 0.2f;
 }
 
 // Asks for the vertices that a channel's share of the first picture's seconds can pay: those of
@@ -229,7 +253,7 @@ void UpdateCycle::shade(ShadeWork& work) {
         if (settings_.fixed_size || work.samples(c) < 2000) continue;
         const double measured = seconds * threads_at_once() / static_cast<double>(work.samples(c));
         gains_.seconds_a_sample[c] +=
-            0.2f * (static_cast<float>(measured) - gains_.seconds_a_sample[c]);
+            cost_learning_ * (static_cast<float>(measured) - gains_.seconds_a_sample[c]);
     }
     statistics_.points_shaded += work.points();
     points_since_refresh_ += work.points();

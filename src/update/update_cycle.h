@@ -91,6 +91,7 @@ private:
     void start();
     void dig_out();
     void divide(PatchId patch, int channel, ShadeWork& work);
+    void measure_costs();
     void start_channel(int channel, double seconds, ShadeWork& work);
     void evaluate(std::span<const VertexId> vertices, int channel, std::uint32_t samples,
                   ShadeWork& work) const;
@@ -140,6 +141,7 @@ private:
     MeshFront mesh_front_;                          // of vertices of meshes
     std::vector<std::pair<PatchId, int>> touched_;  // gains to reckon anew once shaded
     std::vector<std::pair<VertexId, int>> touched_vertices_;
+    float cost_learning_ = 0;  // how much a measured cost of a sample counts beside the known one
     std::size_t points_since_refresh_ = 0;
     std::size_t points_at_exposure_ = 0;
     double paper_sample_count_ = 70;
