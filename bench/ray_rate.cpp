@@ -10,6 +10,7 @@
 #include "furnished_box.h"
 #include "rays/ray_caster.h"
 #include "run_program.h"
+#include "spread.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -81,14 +82,6 @@ double shade_in_turns(SampleRenderer& renderer, std::span<const ShadeRequest> re
         after(first / kPointsATurn);
     }
     return seconds;
-}
-
-nlohmann::ordered_json spread_of(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const auto at = [&](double part) {
-        return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
-    };
-    return {{"median", at(0.5)}, {"low", values.front()}, {"high", values.back()}};
 }
 
 // Every repetition begins with a new renderer that has shaded other points first, so that one which
