@@ -106,7 +106,8 @@ struct Steps {
     Step embree, graphs, mesh_vertices;
 };
 
-nlohmann::ordered_json measure(const Scene& scene, const Settings& settings) {
+nlohmann::ordered_json measure(const std::string& name, int triangles, const Settings& settings) {
+    const Scene scene = make_scene(name, triangles);
     std::vector<Steps> of_threads(settings.threads.size());
     for (int repetition = 0; repetition < settings.repetitions; ++repetition)
         for (std::size_t i = 0; i < of_threads.size(); ++i) {
@@ -117,7 +118,8 @@ nlohmann::ordered_json measure(const Scene& scene, const Settings& settings) {
         }
     nlohmann::ordered_json rows = nlohmann::json::array();
     for (std::size_t i = 0; i < of_threads.size(); ++i)
-        rows.push_back({{"meshes", scene.meshes.size()},
+        rows.push_back({{"scene", name},
+                        {"meshes", scene.meshes.size()},
                         {"triangles", triangle_count(scene)},
                         {"threads", settings.threads[i]},
                         {"embree", of_threads[i].embree.json()},
@@ -149,8 +151,7 @@ int run(int argc, char** argv) {
     nlohmann::ordered_json rows = nlohmann::json::array();
     for (const std::string& name : settings.scenes)
         for (const int triangles : settings.triangles)
-            for (auto& row : measure(make_scene(name, triangles), settings)) {
-                row["scene"] = name;
+            for (auto& row : measure(name, triangles, settings)) {
                 const auto seconds = [&](const char* step) {
                     return row[step]["seconds"]["median"].get<double>();
                 };
