@@ -6,7 +6,8 @@ import json
 import pathlib
 import sys
 
-BEGIN, END = "<!-- efficiency: begin -->", "<!-- efficiency: end -->"
+from results import write_table
+
 KINDS = {  # in the table's order
     "direct": "lit directly (Cornell box, all light)",
     "indirect": "mostly indirect (lamp in a box)",
@@ -35,11 +36,7 @@ def table(folder):
 
 def main():
     folder, docs = (pathlib.Path(argument) for argument in sys.argv[1:3])
-    results = docs / "results.md"
-    before, rest = results.read_text().split(BEGIN)
-    after = rest.split(END)[1]
-    results.write_text(f"{before}{BEGIN}\n{table(folder)}\n{END}{after}")
-    print(table(folder))
+    write_table(docs, "efficiency", table(folder))
 
 
 if __name__ == "__main__":

@@ -12,23 +12,12 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from results import draw_error, finish_error, seconds_to, write_table
+
 ORDER = ["cornell", "room", "kitchen", "classroom"]
 NAMES = {"best": "Shading Cache, best scheme", "paper": "Shading Cache, paper's scheme",
          "best, traced": "best scheme, paths traced to their ends", "path": "path tracing a pixel"}
 COLORS = {"best": "tab:blue", "best, traced": "tab:green", "paper": "tab:orange", "path": "tab:gray"}
-BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
-
-
-def seconds_to(rows, psnr):
-    """Seconds after which `psnr` is reached for good, between measurements by logarithm."""
-    last_below = max((i for i, r in enumerate(rows) if r["psnr"] < psnr), default=-1)
-    if last_below + 1 >= len(rows):
-        return None
-    if last_below < 0:
-        return rows[0]["seconds"]
-    a, b = rows[last_below], rows[last_below + 1]
-    part = (psnr - a["psnr"]) / (b["psnr"] - a["psnr"])
-    return math.exp(math.log(a["seconds"]) + part * math.log(b["seconds"] / a["seconds"]))
 
 
 def extrapolated(rows, psnr):
@@ -74,14 +63,8 @@ def draw(runs, file):
     figure, axes = plt.subplots(1, len(runs), figsize=(5 * len(runs), 4), squeeze=False)
     for run, axis in zip(runs, axes[0]):
         for method, rows in run["methods"].items():
-            axis.plot([r["seconds"] for r in rows], [r["psnr"] for r in rows], label=NAMES[method],
-                      color=COLORS[method], linewidth=2)
-        axis.set_xscale("log")
-        axis.set_title(f"{run['scene']}, {run['size']}, {run['threads']} threads")
-        axis.set_xlabel("seconds after loading")
-        axis.set_ylabel("PSNR against the reference [dB]")
-        axis.grid(True, which="both", alpha=0.3)
-        axis.legend(loc="lower right", fontsize=8)
+            draw_error(axis, rows, label=NAMES[method], color=COLORS[method])
+        finish_error(axis, run)
     figure.tight_layout()
     figure.savefig(file, dpi=80)
 
@@ -91,12 +74,7 @@ def main():
     runs = [json.loads((folder / f"{n}.json").read_text()) for n in ORDER if (folder / f"{n}.json").exists()]
     (docs / "pictures").mkdir(exist_ok=True)
     draw(runs, docs / "pictures" / "quality.png")
-    results = docs / "results.md"
-    text = results.read_text()
-    before, rest = text.split(BEGIN)
-    after = rest.split(END)[1]
-    results.write_text(f"{before}{BEGIN}\n{table(runs)}\n{END}{after}")
-    print(table(runs))
+    write_table(docs, "measured", table(runs))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-BEGIN, END = "<!-- rays: begin -->", "<!-- rays: end -->"
+from results import write_table
+
 BAR = 0.8  # of Embree's own rate: what `path` is to reach
 
 
@@ -57,11 +58,7 @@ def draw(rows, file):
 def main():
     measured, docs = json.loads(pathlib.Path(sys.argv[1]).read_text()), pathlib.Path(sys.argv[2])
     draw(measured["rows"], docs / "pictures" / "ray_rate.png")
-    results = docs / "results.md"
-    before, rest = results.read_text().split(BEGIN)
-    after = rest.split(END)[1]
-    results.write_text(f"{before}{BEGIN}\n{table(measured['rows'])}\n{END}{after}")
-    print(table(measured["rows"]))
+    write_table(docs, "rays", table(measured["rows"]))
 
 
 if __name__ == "__main__":
