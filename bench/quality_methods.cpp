@@ -108,13 +108,19 @@ std::size_t visible_triangles(const ShadingCache& cache) {
     return count;
 }
 
+Json seconds_by_step(const Timings& timings) {
+    Json steps;
+    for (std::size_t i = 0; i < kSteps; ++i) steps[kStepNames[i]] = timings.seconds[i];
+    return steps;
+}
+
 Json measure_cache(const Method& method, const Measuring& measuring) {
     const Stage& stage = measuring.stage;
     OpenSides open_sides(stage.scene);
     const auto renderer = make_renderer(method.renderer, stage.scene, stage.rays, stage.area_lights,
                                         &open_sides, stage.threads);
     Recorder recorder(method, measuring);
-    Json loading;
+    Json loading, steps;
     Stopwatch watch;
     const MeshGraphs graphs(stage.scene, method.levels, stage.threads);
     loading["graphs_seconds"] = watch.seconds();
@@ -128,7 +134,10 @@ Json measure_cache(const Method& method, const Measuring& measuring) {
     for (bool first = true; first || spent < measuring.seconds; first = false) {
         cycle.run();
         spent += watch.seconds();
-        if (first) loading["visible_triangles"] = visible_triangles(cycle.cache());
+        if (first) {
+            loading["visible_triangles"] = visible_triangles(cycle.cache());
+            steps = seconds_by_step(cycle.statistics().timings);
+        }
         if (recorder.due(spent) || first) {
             watch.restart();
             const Image picture = cycle.picture();
@@ -142,7 +151,10 @@ Json measure_cache(const Method& method, const Measuring& measuring) {
     const auto points = static_cast<double>(cycle.statistics().points_shaded);
     recorder.rows.front()["share_of_points"] =
         recorder.rows.front()["points"].get<double>() / std::max(1.0, points);
-    return {{"loading", loading}, {"pictures", recorder.pictures}, {"rows", recorder.rows}};
+    return {{"loading", loading},
+            {"first_picture_seconds", steps},
+            {"pictures", recorder.pictures},
+            {"rows", recorder.rows}};
 }
 
 Json measure_path_tracing(const Method& method, const Measuring& measuring) {
