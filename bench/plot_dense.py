@@ -151,8 +151,8 @@ def draw_strips(folder, strips, place, size, file):
             # Checkpoints come a little late; a picture that nobody had is not shown.
             begun = first(run, method)["seconds"]
             if time is not None and (time not in taken or begun > 1.2 * time):
-                axis.text(0.5, 0.5, f"first picture\nafter {begun:.2f} s", ha="center",
-                          va="center", transform=axis.transAxes, fontsize=9)
+                note = f"first picture\nafter {begun:.2f} s" if begun > 1.2 * time else "not measured"
+                axis.text(0.5, 0.5, note, ha="center", va="center", transform=axis.transAxes, fontsize=9)
                 continue
             name = "reference" if time is None else taken[time]["name"]
             axis.imshow(cut(files.imread(pictures / f"{name}.png"), place), interpolation="lanczos", aspect="auto")
