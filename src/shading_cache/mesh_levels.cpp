@@ -115,12 +115,15 @@ void find_parents(std::span<const LevelVertex> vertices,
             near.clear();
             for (std::size_t i = first; i < end; ++i) {
                 if (representatives[i] == i) continue;
-                if (near.empty()) kept.find(grid.code(vertices[i]), near);
+                const LevelVertex& representative = vertices[representatives[i]];
+                const ParentSet alone = {{representative.vertex}, {MeshGraph::kFullWeight}};
                 ParentSet& set = parents[vertices[i].vertex];
+                set = alone;
+                if (vertices[i].position == representative.position) continue;
+                if (near.empty()) kept.find(grid.code(vertices[i]), near);
                 set = choose_parents(vertices[i], near, grid.cell);
                 // Its representative continued its surface before it got its mean normal.
-                if (set.empty())
-                    set = {{vertices[representatives[i]].vertex}, {MeshGraph::kFullWeight}};
+                if (set.empty()) set = alone;
             }
         });
     });

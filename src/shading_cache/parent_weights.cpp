@@ -137,7 +137,7 @@ ParentSet choose_parents(const LevelVertex& vertex, std::span<const LevelVertex>
     bool any = false;
     for (const LevelVertex& candidate : candidates) {
         if (!continues(vertex, candidate, cell)) continue;
-        const Vec3 d = (candidate.position - vertex.position) / cell;
+        const Vec3 d = (candidate.position - vertex.position) * (1 / cell);
         const Vec2 place(glm::dot(frame.s, d), glm::dot(frame.t, d));
         const int right = kTurnCosine * place.x + kTurnSine * place.y > 0;
         const int above = kTurnCosine * place.y - kTurnSine * place.x > 0;

@@ -173,6 +173,16 @@ void weld_place(const Mesh& mesh, std::span<const std::uint32_t> corners,
     }
 }
 
+// Along the geometric normal at a corner, on the front side.
+Vec3 corner_cross(const Mesh& mesh, const Primitive& p, int corner) {
+    if (p.is_quad()) {
+        const float past_diagonal = corner == 2 ? 1.0f : 0.0f;
+        return front_cross(mesh, p, corner_weights(true, past_diagonal, past_diagonal));
+    }
+    const Vec3 origin = mesh.positions[p.corners[0]];
+    return glm::cross(mesh.positions[p.corners[1]] - origin, mesh.positions[p.corners[2]] - origin);
+}
+
 }  // namespace
 
 Weld weld_corners(const Mesh& mesh, int threads) {
@@ -210,15 +220,12 @@ Weld weld_corners(const Mesh& mesh, int threads) {
 
 Vec3 corner_normal(const Mesh& mesh, MeshCorner corner) {
     const Primitive& p = mesh.primitives[corner.primitive];
-    const float past_diagonal = p.is_quad() && corner.corner == 2 ? 1.0f : 0.0f;
-    const Vec3 cross =
-        front_cross(mesh, p, corner_weights(p.is_quad(), past_diagonal, past_diagonal));
-    const Vec3 geometric = safe_normalize(cross, Vec3(0, 0, 1));
-    if (mesh.normals.empty()) return geometric;
-    const Vec3 normal = safe_normalize(mesh.normals[p.corners[corner.corner]], geometric);
-    const float side = glm::dot(normal, geometric);
-    if (side == 0) return geometric;
-    return side < 0 ? -normal : normal;
+    const Vec3 cross = corner_cross(mesh, p, corner.corner);
+    if (mesh.normals.empty()) return safe_normalize(cross, Vec3(0, 0, 1));
+    const Vec3 normal = mesh.normals[p.corners[corner.corner]];
+    const float side = glm::dot(normal, cross);
+    if (side == 0) return safe_normalize(cross, Vec3(0, 0, 1));
+    return safe_normalize(side < 0 ? -normal : normal, Vec3(0, 0, 1));
 }
 
 }  // namespace chiaro
