@@ -37,10 +37,11 @@ struct LevelSettings {
 ///
 /// Corners of primitives are one vertex where position and material agree and the normals are
 /// within 16 degrees (1 degree on meshes without normals, whose faces are flat). Level 0 are all
-/// vertices, level l those that stand for the ones in their cell of that level's grid, which are
-/// some of those of level l - 1. Parents are of the same material, on a surface that continues the
-/// vertex's own, and their weights reproduce linear functions where parents lie all round it.
-/// Vertices for which there are no such parents have none.
+/// vertices; level l are those of level l - 1 that stand for the others in their cell of its grid,
+/// one for each sheet of surface, way it faces and material. Parents are near, of the same material
+/// and on a surface that continues the vertex's own; their weights reproduce linear functions where
+/// they lie all round it. Only vertices of the coarsest level have none. With levels, vertices of
+/// near numbers are near each other.
 struct MeshGraph {
     static constexpr int kFullWeight = 128;  // weights are multiples of 1/128, as in CacheVertex
 
