@@ -136,14 +136,14 @@ ParentSet choose_parents(const LevelVertex& vertex, std::span<const LevelVertex>
     Neighbors nearest;
     bool any = false;
     for (const LevelVertex& candidate : candidates) {
-        if (!continues(vertex, candidate, cell)) continue;
         const Vec3 d = (candidate.position - vertex.position) * (1 / cell);
         const Vec2 place(glm::dot(frame.s, d), glm::dot(frame.t, d));
         const int right = kTurnCosine * place.x + kTurnSine * place.y > 0;
         const int above = kTurnCosine * place.y - kTurnSine * place.x > 0;
         Neighbor& n = nearest[2 * above + right];
         const float squared = glm::dot(d, d);
-        if (squared < n.squared_distance) n = {place, squared, 0, candidate.vertex};
+        if (squared >= n.squared_distance || !continues(vertex, candidate, cell)) continue;
+        n = {place, squared, 0, candidate.vertex};
         any = true;
     }
     if (!any) return {};
