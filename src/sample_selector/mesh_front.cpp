@@ -1,18 +1,12 @@
 #include "sample_selector/mesh_front.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace chiaro {
 namespace {
 
 constexpr std::array<Shading, 2> kKinds = {Shading::irradiance, Shading::glossy};
-
-bool concerned(const ShadingCache& cache, VertexId vertex, int channel) {
-    if (cache.changed(vertex, channel)) return true;
-    for (const VertexId parent : cache.vertex(vertex).known_parents())
-        if (cache.changed(parent, channel)) return true;
-    return false;
-}
 
 }  // namespace
 
@@ -26,7 +20,38 @@ void MeshFront::attach(const ShadingCache& cache) {
         vertices_.push_back(id);
         levels_.push_back(static_cast<std::uint8_t>(std::min(cache.level(id), kLevels - 1)));
     }
+    link(cache);
     weigh(cache);
+}
+
+// `for_each(add)` calls add(place, entry), in the same order whenever it is called.
+template <typename T, typename ForEach>
+MeshFront::Lists<T> MeshFront::make_lists(const ForEach& for_each) const {
+    Lists<T> lists;
+    lists.first.assign(vertices_.size() + 1, 0);
+    for_each([&](std::size_t place, T) { ++lists.first[place + 1]; });
+    for (std::size_t i = 0; i < vertices_.size(); ++i) lists.first[i + 1] += lists.first[i];
+    lists.entries.resize(lists.first.back());
+    std::vector<std::uint32_t> next(lists.first.begin(), lists.first.end() - 1);
+    for_each([&](std::size_t place, T entry) { lists.entries[next[place]++] = entry; });
+    return lists;
+}
+
+void MeshFront::link(const ShadingCache& cache) {
+    children_ = make_lists<std::uint32_t>([&](const auto& add) {
+        for (std::size_t place = 0; place < vertices_.size(); ++place)
+            for (const VertexId parent : cache.vertex(vertices_[place]).known_parents())
+                add(place_of(parent), static_cast<std::uint32_t>(place));
+    });
+    roots_ = make_lists<PatchId>([&](const auto& add) {
+        for (std::size_t i = 0; i < cache.patches().size(); ++i) {
+            const Patch& patch = cache.patches()[i];
+            if (!patch.is_root() || patch.fragment_count == 0) continue;
+            for (int c = 0; c < patch.corner_count(); ++c)
+                add(place_of(patch.corners[c]), static_cast<PatchId>(i));
+        }
+    });
+    marked_.assign((vertices_.size() + 63) / 64, 0);
 }
 
 void MeshFront::weigh(const ShadingCache& cache) {
@@ -133,11 +158,41 @@ void MeshFront::reckon(const ShadingCache& cache, const GainSettings& settings) 
     }
 }
 
-void MeshFront::reckon_changed(const ShadingCache& cache, const GainSettings& settings) {
-    for (int c = 0; c < cache.channels(); ++c)
-        for (std::size_t place = 0; place < vertices_.size(); ++place)
-            if (concerned(cache, vertices_[place], c))
-                gains_[c].set(place, gain_at(cache, place, c, settings));
+void MeshFront::mark_children(const ShadingCache& cache, std::size_t place, int channel) {
+    for (const std::uint32_t child : children_.of(place)) {
+        const VertexId id = vertices_[child];
+        if (cache.evaluated(id, channel) && !cache.vertex(id).buried) continue;
+        marked_[child / 64] |= std::uint64_t{1} << (child % 64);
+    }
+}
+
+std::size_t MeshFront::carry(ShadingCache& cache, std::span<const VertexId> news, int channel,
+                             const GainSettings& settings) {
+    std::size_t lowest = marked_.size();
+    for (const VertexId id : news) {
+        const std::size_t place = place_of(id);
+        if (place == kNowhere) continue;
+        mark_children(cache, place, channel);
+        lowest = std::min(lowest, place / 64);
+    }
+    // Children come after their parents, so that one pass over the marks meets all.
+    std::size_t count = 0;
+    for (std::size_t word = lowest; word < marked_.size(); ++word)
+        while (marked_[word] != 0) {
+            const std::size_t place =
+                64 * word + static_cast<std::size_t>(std::countr_zero(marked_[word]));
+            marked_[word] &= marked_[word] - 1;
+            if (cache.resolve(vertices_[place], channel)) mark_children(cache, place, channel);
+            gains_[channel].set(place, gain_at(cache, place, channel, settings));
+            ++count;
+        }
+    return count;
+}
+
+std::span<const PatchId> MeshFront::roots_round(VertexId vertex) const {
+    const std::size_t place = place_of(vertex);
+    if (place == kNowhere) return {};
+    return roots_.of(place);
 }
 
 void MeshFront::reckon(const ShadingCache& cache, VertexId vertex, int channel,

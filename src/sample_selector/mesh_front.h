@@ -44,9 +44,15 @@ public:
     void settle(ShadingCache& cache, std::span<const VertexId> evaluated, int channel,
                 const GainSettings& settings);
 
-    /// Reckons gains anew: of all vertices, or of those that a change of the cache concerns.
+    /// Carries what is new at some vertices in a channel down to those that they speak for, and
+    /// reckons their gains anew. Returns how many these were; touches no others.
+    std::size_t carry(ShadingCache& cache, std::span<const VertexId> news, int channel,
+                      const GainSettings& settings);
+    /// The roots in view round a vertex.
+    std::span<const PatchId> roots_round(VertexId vertex) const;
+
+    /// Reckons gains anew, of all vertices or of one.
     void reckon(const ShadingCache& cache, const GainSettings& settings);
-    void reckon_changed(const ShadingCache& cache, const GainSettings& settings);
     void reckon(const ShadingCache& cache, VertexId vertex, int channel,
                 const GainSettings& settings);
     /// Takes a vertex out of the draw until its gain is reckoned again.
@@ -60,12 +66,29 @@ public:
 private:
     static constexpr std::size_t kNowhere = ~std::size_t{0};
     std::size_t place_of(VertexId vertex) const;
+    void link(const ShadingCache& cache);
     void weigh(const ShadingCache& cache);
+    void mark_children(const ShadingCache& cache, std::size_t place, int channel);
     void lift(const ShadingCache& cache, VertexId vertex, int channel, float pixels);
     float gain_at(const ShadingCache& cache, std::size_t place, int channel,
                   const GainSettings& settings) const;
 
+    /// What belongs to each vertex, by place: entries [first[place], first[place + 1]).
+    template <typename T>
+    struct Lists {
+        std::vector<std::uint32_t> first;
+        std::vector<T> entries;
+        std::span<const T> of(std::size_t place) const {
+            return std::span(entries).subspan(first[place], first[place + 1] - first[place]);
+        }
+    };
+    template <typename T, typename ForEach>
+    Lists<T> make_lists(const ForEach& for_each) const;
+
     std::vector<VertexId> vertices_;
+    Lists<std::uint32_t> children_;  // places
+    Lists<PatchId> roots_;
+    std::vector<std::uint64_t> marked_;  // a bit a place, for carry()
     std::vector<std::uint8_t> levels_;
     std::vector<std::uint8_t> in_view_;           // bit: Shading
     std::array<std::vector<float>, 2> own_;       // by Shading: pixels of the patches round it

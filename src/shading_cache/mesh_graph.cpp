@@ -12,7 +12,7 @@ namespace {
 // Meshes of fewer corners are made one a thread, larger ones by all threads together.
 constexpr std::size_t kSmallMesh = 100'000;
 
-constexpr float kTopCellsOfDiagonal = 40;
+constexpr float kTopCellsOfDiagonal = 10;
 
 template <typename T>
 std::size_t held(const std::vector<T>& array) {
@@ -75,7 +75,7 @@ MeshGraph make_mesh_graph(const Mesh& mesh, const LevelSettings& settings, int t
 MeshGraphs::MeshGraphs(const Scene& scene, CoarserLevels levels, int threads)
     : graphs_(scene.meshes.size()) {
     std::vector<float> cells(scene.meshes.size(), 0.0f);
-    if (levels == CoarserLevels::up_to_a_fortieth) cells = top_cells(scene);
+    if (levels == CoarserLevels::up_to_a_tenth) cells = top_cells(scene);
     const auto small = [&](std::size_t i) { return corner_count(scene.meshes[i]) < kSmallMesh; };
     parallel_for(threads, graphs_.size(), [&](std::size_t i) {
         if (small(i)) graphs_[i] = make_mesh_graph(scene.meshes[i], {.top_cell = cells[i]}, 1);

@@ -29,7 +29,7 @@ struct LevelSettings {
     /// Size of the cells of the coarsest level, in object space; 0: no level but the mesh's own.
     float top_cell = 0;
     /// Cells of each level are half as large as those of the next coarser one.
-    int levels = 8;
+    int levels = 10;
 };
 
 /// The vertices of one mesh in one graph: each has up to 4 parents of a coarser level with weights,
@@ -71,9 +71,9 @@ struct MeshGraph {
 MeshGraph make_mesh_graph(const Mesh& mesh, const LevelSettings& settings, int threads);
 
 /// Which levels a scene's meshes get.
-enum class CoarserLevels { none, up_to_a_fortieth };
+enum class CoarserLevels { none, up_to_a_tenth };
 
-/// Graphs of all meshes, shared by the objects that show them. The coarsest cells are 1/40 of the
+/// Graphs of all meshes, shared by the objects that show them. The coarsest cells are 1/10 of the
 /// scene's diagonal, at the scale of the largest object that shows the mesh.
 class MeshGraphs {
 public:

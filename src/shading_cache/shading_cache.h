@@ -132,6 +132,9 @@ public:
     /// depends on it up to date: 1 to 2 ns for each vertex after the first that changed, and more
     /// only for those whose parents did.
     void resolve();
+    /// Carries what the parents show in a channel to one vertex. Returns whether it shows something
+    /// else now, or has become hollow or ceased to be.
+    bool resolve(VertexId vertex, int channel);
     /// Whether a vertex's value or estimate in a channel has changed since forget_changes().
     bool changed(VertexId vertex, int channel) const {
         return changed_[index_of(vertex)] >> channel & 1;

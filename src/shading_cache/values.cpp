@@ -209,6 +209,14 @@ void ShadingCache::resolve() {
     }
 }
 
+bool ShadingCache::resolve(VertexId id, int channel) {
+    const bool was_hollow = vertex(id).hollow;
+    const std::uint32_t shown_before = shown_[channel][index_of(id)];
+    resolve_hollow(id);
+    resolve_vertex(id, channel);
+    return was_hollow != vertex(id).hollow || shown_before != shown_[channel][index_of(id)];
+}
+
 void ShadingCache::forget_changes() {
     if (first_changed_ < changed_.size())
         std::fill(changed_.begin() + static_cast<std::ptrdiff_t>(first_changed_), changed_.end(),

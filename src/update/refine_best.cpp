@@ -13,8 +13,10 @@ namespace {
 // Equation 1's epsilon: the part of the choices that priorities have no say in.
 constexpr float kChance = 0.03f;
 
-// Vertices for each point that is shaded between two looks at what changed.
-constexpr std::size_t kPointsARefresh = 16;
+// Vertices of the cache for each point that is shaded between two looks at all that changed, and
+// those that values are carried to.
+constexpr std::size_t kVerticesAPoint = 5;
+constexpr std::size_t kVerticesCarriedAPoint = 64;
 
 }  // namespace
 
@@ -33,10 +35,27 @@ void UpdateCycle::refine() {
         for (const auto& [vertex, channel] : touched_vertices_)
             mesh_front_.reckon(cache_, vertex, channel, gains_);
     }
+    carry_down();
     // Neighbours of what was shaded learn of it here. Waiting for a part of the vertices keeps
     // this look at everything a small part of the whole.
-    if (points_since_refresh_ * kPointsARefresh > cache_.vertices().size())
+    if (points_since_refresh_ * kVerticesAPoint > cache_.vertices().size())
         refresh(Extent::what_changed);
+}
+
+// Dense meshes learn sooner, as many vertices wait for few: of each vertex those that it speaks
+// for, and the patches whose corners are known now.
+void UpdateCycle::carry_down() {
+    if (points_since_carry_ * kVerticesCarriedAPoint < vertices_carried_) return;
+    const StepTimer timer(statistics_.timings, Step::update_display_meshes);
+    points_since_carry_ = 0;
+    vertices_carried_ = 0;
+    for (int c = 0; c < cache_.channels(); ++c) {
+        vertices_carried_ += mesh_front_.carry(cache_, news_[c], c, gains_);
+        for (const VertexId v : news_[c])
+            for (const PatchId root : mesh_front_.roots_round(v))
+                front_[c].set(index_of(root), front_gain(root, c));
+        news_[c].clear();
+    }
 }
 
 double UpdateCycle::seconds_budget() const {
@@ -193,10 +212,10 @@ void UpdateCycle::refresh(Extent extent) {
     if (settings_.scheme == Scheme::best) {
         const StepTimer timer(statistics_.timings, Step::sample_selection);
         for (int c = 0; c < cache_.channels(); ++c) reckon_front(c, extent);
-        if (extent == Extent::everything)
+        if (extent == Extent::everything) {
             mesh_front_.reckon(cache_, gains_);
-        else
-            mesh_front_.reckon_changed(cache_, gains_);
+            for (auto& news : news_) news.clear();
+        }
     }
     cache_.forget_changes();
 }

@@ -89,6 +89,7 @@ UpdateCycle::UpdateCycle(const RayCaster& rays, const MeshGraphs& graphs, Sample
       environment_(!is_dark(rays.scene().environment)),
       rng_(settings.seed),
       front_(plans_.size()),
+      news_(plans_.size()),
       seconds_a_polished_pixel_(kSecondsAPolishedPixel) {
     for (std::size_t c = 0; c < plans_.size(); ++c) {
         gains_.first_samples[c] = plans_[c].first_samples;
@@ -249,6 +250,8 @@ void UpdateCycle::shade(ShadeWork& work) {
         const double seconds =
             work.shade(cache_, *renderer_, c, static_cast<Cycle>(statistics_.cycles));
         mesh_front_.settle(cache_, new_ones, c, gains_);
+        for (const VertexId v : work.vertices(c))
+            if (cache_.vertex(v).of_mesh) news_[c].push_back(v);
         statistics_.samples[c] += work.samples(c);
         if (settings_.fixed_size || work.samples(c) < 2000) continue;
         const double measured = seconds * threads_at_once() / static_cast<double>(work.samples(c));
@@ -257,6 +260,7 @@ void UpdateCycle::shade(ShadeWork& work) {
     }
     statistics_.points_shaded += work.points();
     points_since_refresh_ += work.points();
+    points_since_carry_ += work.points();
     // Where nothing was found, darkness is to be told from bad luck. Ends: samples double.
     ShadeWork doubts = work.doubts(cache_);
     if (doubts.points() > 0) shade(doubts);

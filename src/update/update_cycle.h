@@ -21,7 +21,7 @@ enum class Scheme { best, paper };
 
 /// The levels that a scheme's meshes are to have (MeshGraphs).
 inline CoarserLevels coarser_levels(Scheme scheme) {
-    return scheme == Scheme::paper ? CoarserLevels::none : CoarserLevels::up_to_a_fortieth;
+    return scheme == Scheme::paper ? CoarserLevels::none : CoarserLevels::up_to_a_tenth;
 }
 
 struct UpdateSettings {
@@ -116,6 +116,7 @@ private:
     float front_gain(PatchId patch, int channel) const;
     bool front_changed(PatchId patch, int channel) const;
     enum class Extent { what_changed, everything };
+    void carry_down();
     void refresh(Extent extent);
     void reckon_front(int channel, Extent extent);
     void estimate_exposure();
@@ -142,6 +143,9 @@ private:
     std::vector<std::pair<PatchId, int>> touched_;  // gains to reckon anew once shaded
     std::vector<std::pair<VertexId, int>> touched_vertices_;
     float cost_learning_ = 0;  // how much a measured cost of a sample counts beside the known one
+    std::vector<std::vector<VertexId>> news_;  // a channel: of meshes, not carried down yet
+    std::size_t points_since_carry_ = 0;
+    std::size_t vertices_carried_ = 0;  // when values were carried down last
     std::size_t points_since_refresh_ = 0;
     std::size_t points_at_exposure_ = 0;
     double paper_sample_count_ = 70;
