@@ -113,7 +113,7 @@ nlohmann::ordered_json measure(const std::string& name, int triangles, const Set
         for (std::size_t i = 0; i < of_threads.size(); ++i) {
             const int threads = settings.threads[i];
             build_embree(scene, threads, of_threads[i].embree);
-            make_graphs(scene, CoarserLevels::up_to_a_fortieth, threads, of_threads[i].graphs);
+            make_graphs(scene, CoarserLevels::up_to_a_tenth, threads, of_threads[i].graphs);
             make_graphs(scene, CoarserLevels::none, threads, of_threads[i].mesh_vertices);
         }
     nlohmann::ordered_json rows = nlohmann::json::array();
