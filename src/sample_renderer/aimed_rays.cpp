@@ -32,6 +32,7 @@ void add_aimed_ray(const Aims& aims, const Receiver& receiver, const Sequence& s
     path.key = hash32(path.key, kAimedSalt);
     path.light_choice = BounceNumbers(path.key, kAimedSalt).next();
     path.light_place = path.sky_place;
+    path.first = Path::kAimedFirst;
     wave.add({receiver.origin, direction}, path);
     targets.push_back({found->point, std::sqrt(squared)});
 }

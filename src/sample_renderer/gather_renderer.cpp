@@ -76,7 +76,10 @@ struct Scratch {
     CellShares shares;
 };
 
+// Rays that were aimed tell nothing of where in a cell rays end, which it is the mean of: they
+// would fill it at what is bright in it alone.
 bool takes_note(const Path& path, std::uint32_t bounce) {
+    if (path.first == Path::kAimedFirst) return false;
     constexpr std::uint32_t kNoteSalt = 0x907e;
     return BounceNumbers(hash32(path.key, kNoteSalt), bounce).next() * kRaysANote < 1;
 }
@@ -97,7 +100,7 @@ TaskResult gather(const LitScene& lit, IndirectOptions options, const Irradiance
             const auto [id, wants] = found[i];
             const Path& path = met.paths[i];
             const bool wanting = id == CellId::none || cells.cell(id).key != wants;
-            if (wanting)
+            if (wanting && path.first != Path::kAimedFirst)
                 asking.push_back({wants, 1, lane(met.met, i)});
             else if (takes_note(path, met.bounce))
                 asking.push_back({wants, kRaysANote, lane(met.met, i)});

@@ -11,11 +11,14 @@ namespace chiaro {
 
 /// One path under way; its ray and hit stand at the same place in the wave's arrays.
 struct Path {
+    static constexpr std::uint32_t kAimedFirst = 2;
+
     Rgb throughput = Rgb(1);
     float pdf = 0;          // of the ray's direction over solid angle, for the weight of emission;
                             // 0: no light sample finds what it meets
     Vec3 normal = Vec3(0);  // LitPlace's, where the ray started; after the first hit
-    std::uint32_t first = 1;   // it is still on its first ray, though that may have passed panes
+    std::uint32_t first = 1;   // it is still on its first ray, though that may have passed panes;
+                               // kAimedFirst: which was aimed
     std::uint32_t slot = 0;    // which sum it adds to
     std::uint32_t key = 0;     // names its random numbers after the first hit's
     Vec2 light_place = {};     // at the first hit: where on a light,
