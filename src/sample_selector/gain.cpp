@@ -23,6 +23,13 @@ constexpr float kUnseen = 0.2f;
 // How much less a vertex that has found no light varies than one of the same samples that has.
 constexpr float kDoubt = 4;
 
+// The same from a vertex of a mesh to those that it speaks for, which may face elsewhere.
+constexpr float kSurplusOfMesh = 0.5f;
+
+// Error on the curve's scale that is suspected at a vertex of a mesh that is not evaluated: its parents
+// cannot know what is small (window blinds, gaps).
+constexpr float kUnproven = 0.02f;
+
 // New vertices a division makes on average, neighbours sharing the midpoints.
 constexpr float kNewInFour = 3;
 constexpr float kNewAcross = 1.5f;
@@ -56,10 +63,10 @@ struct Survey {
         }
     }
 
-    // Squared error, in light, to expect between them.
-    float error2() const {
+    // Squared error, in light, to expect between them, if surplus goes on by that factor.
+    float error2(float surplus_next) const {
         const float spread = high - low;
-        float sum = kSurplusNext * kSurplusNext * surplus2 +
+        float sum = surplus_next * surplus_next * surplus2 +
                     kRangeNext * kRangeNext * std::max(0.0f, spread * spread - 9 * variance);
         if (buried > 0 && buried < count) sum += kContact * kContact * light * light;
         return sum;
@@ -126,7 +133,7 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
 
     Gain result;
     if (patch.fragment_count > 1 && patch.divisible()) {
-        float seen2 = corners.error2() * slope * slope + settings.epsilon * settings.epsilon;
+        float seen2 = corners.error2(kSurplusNext) * slope * slope + settings.epsilon * settings.epsilon;
         if (corners.buried + 1 >= corners.count) seen2 += kUnseen * kUnseen;
         const bool across =
             patch.split == Split::quad_across_s || patch.split == Split::quad_across_t;
@@ -171,8 +178,8 @@ float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, flo
         survey.add(cache, parents[i], channel, v.weight(i));
     }
     const float slope = to_curve(cache, vertex, channel, settings.scale);
-    float seen2 = settings.epsilon * settings.epsilon;
-    if (survey.count > 0) seen2 += survey.error2() * slope * slope;
+    float seen2 = kUnproven * kUnproven;
+    if (survey.count > 0) seen2 += survey.error2(kSurplusOfMesh) * slope * slope;
     // Nothing speaks for it.
     if (survey.buried == survey.count) seen2 += kUnseen * kUnseen;
     const float cost = static_cast<float>(samples_of_new(cache, parents, channel, settings)) *

@@ -39,7 +39,8 @@ void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std
 
 // By how much the prediction missed the first estimate, beyond what its noise explains. A vertex
 // that happens to agree does not speak for its whole neighbourhood: a part of its parents' surplus
-// stays suspected, less than the quarter that a smooth function would leave.
+// stays suspected: the quarter that a smooth function would leave on a mesh, whose vertices differ in
+// more than place, less below it.
 float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float variance) const {
     const std::optional<Rgb> prediction = predicted(vertex(id), channel);
     if (!prediction) return Estimate::kUnknown;
@@ -55,7 +56,7 @@ float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float vari
         inherited = std::max(inherited, surplus(parents[i], channel));
     }
     const float own = std::sqrt(std::max(0.0f, miss * miss - 3 * noise));
-    return std::max(own, inherited / 16);
+    return std::max(own, inherited / (vertex(id).of_mesh ? 4 : 16));
 }
 
 float ShadingCache::surplus(VertexId id, int channel) const {
