@@ -30,6 +30,10 @@ constexpr float kSurplusOfMesh = 0.5f;
 // cannot know what is small (window blinds, gaps).
 constexpr float kUnproven = 0.02f;
 
+// The part of its parents that is to be evaluated before a vertex of a mesh is: not all, as some may be
+// hidden, and are worth next to nothing themselves.
+constexpr float kEnoughKnown = 0.5f;
+
 // New vertices a division makes on average, neighbours sharing the midpoints.
 constexpr float kNewInFour = 3;
 constexpr float kNewAcross = 1.5f;
@@ -172,11 +176,15 @@ float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, flo
                     const GainSettings& settings) {
     const CacheVertex& v = cache.vertex(vertex);
     const auto parents = v.known_parents();
+    float known = 0;
+    for (std::size_t i = 0; i < parents.size(); ++i)
+        if (cache.evaluated(parents[i], channel)) known += v.weight(i);
+    if (!parents.empty() && known < kEnoughKnown) return 0;
+
     Survey survey;
-    for (std::size_t i = 0; i < parents.size(); ++i) {
-        if (!cache.evaluated(parents[i], channel)) return 0;
-        survey.add(cache, parents[i], channel, v.weight(i));
-    }
+    for (std::size_t i = 0; i < parents.size(); ++i)
+        if (cache.evaluated(parents[i], channel))
+            survey.add(cache, parents[i], channel, v.weight(i) / known);
     const float slope = to_curve(cache, vertex, channel, settings.scale);
     float seen2 = kUnproven * kUnproven;
     if (survey.count > 0) seen2 += survey.error2(kSurplusOfMesh) * slope * slope;

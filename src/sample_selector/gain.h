@@ -48,7 +48,7 @@ std::uint32_t samples_of_new(const ShadingCache& cache, VertexId vertex, int cha
                              const GainSettings& settings);
 
 /// Gain of evaluating a vertex of the mesh on which `pixels` weigh: what its parents' surplus and
-/// range predict. Zero while a parent is not evaluated itself, as coarse ones go first.
+/// range predict. Zero while less than half of them is evaluated, as coarse ones go first.
 float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, float pixels,
                     const GainSettings& settings);
 
