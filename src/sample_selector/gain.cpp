@@ -26,12 +26,12 @@ constexpr float kDoubt = 4;
 // The same from a vertex of a mesh to those that it speaks for, which may face elsewhere.
 constexpr float kSurplusOfMesh = 0.5f;
 
-// Error on the curve's scale that is suspected at a vertex of a mesh that is not evaluated: its parents
-// cannot know what is small (window blinds, gaps).
+// Error on the curve's scale that is suspected at a vertex of a mesh that is not evaluated: its
+// parents cannot know what is small (window blinds, gaps).
 constexpr float kUnproven = 0.02f;
 
-// The part of its parents that is to be evaluated before a vertex of a mesh is: not all, as some may be
-// hidden, and are worth next to nothing themselves.
+// The part of its parents that is to be evaluated before a vertex of a mesh is: not all, as some
+// may be hidden, and are worth next to nothing themselves.
 constexpr float kEnoughKnown = 0.5f;
 
 // New vertices a division makes on average, neighbours sharing the midpoints.
@@ -137,7 +137,8 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
 
     Gain result;
     if (patch.fragment_count > 1 && patch.divisible()) {
-        float seen2 = corners.error2(kSurplusNext) * slope * slope + settings.epsilon * settings.epsilon;
+        float seen2 =
+            corners.error2(kSurplusNext) * slope * slope + settings.epsilon * settings.epsilon;
         if (corners.buried + 1 >= corners.count) seen2 += kUnseen * kUnseen;
         const bool across =
             patch.split == Split::quad_across_s || patch.split == Split::quad_across_t;

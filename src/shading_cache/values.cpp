@@ -39,8 +39,8 @@ void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std
 
 // By how much the prediction missed the first estimate, beyond what its noise explains. A vertex
 // that happens to agree does not speak for its whole neighbourhood: a part of its parents' surplus
-// stays suspected: the quarter that a smooth function would leave on a mesh, whose vertices differ in
-// more than place, less below it.
+// stays suspected: the quarter that a smooth function would leave on a mesh, whose vertices differ
+// in more than place, less below it.
 float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float variance) const {
     const std::optional<Rgb> prediction = predicted(vertex(id), channel);
     if (!prediction) return Estimate::kUnknown;

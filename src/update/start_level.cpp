@@ -25,7 +25,7 @@ struct Large {
 
 // Meshes may have this many times the vertices that the first picture can pay and still start as
 // they are: fine detail is worth a longer wait than its loss (docs/overview.md).
-constexpr double kPatience = 3;
+constexpr double kPatience = 1;
 
 }  // namespace
 

@@ -72,6 +72,9 @@ constexpr double kDirectShare = 0.15;
 constexpr double kGlossyShare = 0.5;
 constexpr std::uint32_t kMostFirstSamples = 4;
 
+// And how few vertices it may have.
+constexpr double kPixelsAVertex = 192;
+
 SplitRule split_rule(Scheme scheme) {
     return scheme == Scheme::paper ? SplitRule::always_four : SplitRule::by_shape;
 }

@@ -32,7 +32,7 @@ struct UpdateSettings {
     std::uint32_t direct_samples = 100;  // paper: of the joint channel, fixed
     std::uint32_t indirect_samples = 400;
     double cycle_seconds = 0.05;          // the length that a cycle adjusts itself to
-    double first_picture_seconds = 0.15;  // what the first cycle may spend on shading
+    double first_picture_seconds = 0.2;   // what the first cycle may spend on shading
     float cached_facets = kCachedFacets;  // as RayViewSettings has it
     // Cycles of a fixed size, by assumed costs instead of measured ones: the same bits on any
     // machine.
