@@ -121,8 +121,9 @@ void MeshFront::lift(const ShadingCache& cache, VertexId vertex, int channel, fl
     }
 }
 
-void MeshFront::settle(ShadingCache& cache, std::span<const VertexId> evaluated, int channel,
-                       const GainSettings& settings) {
+std::vector<VertexId> MeshFront::settle(ShadingCache& cache, std::span<const VertexId> evaluated,
+                                        int channel, const GainSettings& settings) {
+    std::vector<VertexId> suspects;
     // Coarse ones first, so that each lifts all that weighed on it before.
     for (const VertexId id : evaluated) {
         const std::size_t place = place_of(id);
@@ -132,11 +133,13 @@ void MeshFront::settle(ShadingCache& cache, std::span<const VertexId> evaluated,
              own_[static_cast<int>(kind)][place] + std::max(0.0f, spoken_for_[channel][place]));
         for (const VertexId parent : cache.vertex(id).known_parents()) {
             if (!cache.evaluated(parent, channel) || cache.vertex(parent).buried) continue;
-            cache.suspect(parent, channel, cache.surplus(id, channel));
+            if (cache.suspect(parent, channel, cache.surplus(id, channel)))
+                suspects.push_back(parent);
             reckon(cache, parent, channel, settings);
         }
         reckon(cache, id, channel, settings);
     }
+    return suspects;
 }
 
 float MeshFront::gain_at(const ShadingCache& cache, std::size_t place, int channel,

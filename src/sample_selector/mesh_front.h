@@ -40,9 +40,10 @@ public:
 
     /// Vertices, in order, were evaluated in a channel for the first time: what they weigh is
     /// lifted off those that spoke for them, which are suspected where they spoke wrongly. Others
-    /// than vertices of meshes are passed over.
-    void settle(ShadingCache& cache, std::span<const VertexId> evaluated, int channel,
-                const GainSettings& settings);
+    /// than vertices of meshes are passed over. Returns the suspects: news for carry(), as all that
+    /// they speak for gains by it.
+    std::vector<VertexId> settle(ShadingCache& cache, std::span<const VertexId> evaluated,
+                                 int channel, const GainSettings& settings);
 
     /// Carries what is new at some vertices in a channel down to those that they speak for, and
     /// reckons their gains anew. Returns how many these were; touches no others.

@@ -97,8 +97,8 @@ public:
     float surplus(VertexId vertex, int channel) const;
 
     /// Raises a vertex's surplus to at least `luminance`: its children were found to differ more
-    /// than it would tell. Checks: evaluated.
-    void suspect(VertexId vertex, int channel, float luminance);
+    /// than it would tell. Returns whether it was less. Checks: evaluated.
+    bool suspect(VertexId vertex, int channel, float luminance);
 
     /// Merges `samples` further samples with their `mean` and the luminance variance of that mean.
     /// The first time, notes the surplus over the parents' prediction. Checks: finite, samples > 0.

@@ -68,11 +68,12 @@ float ShadingCache::surplus(VertexId id, int channel) const {
     return kPartUnknown * luminance(shown_total(id, shading(channel)).value);
 }
 
-void ShadingCache::suspect(VertexId id, int channel, float luminance) {
+bool ShadingCache::suspect(VertexId id, int channel, float luminance) {
     Estimate& e = estimates_[channel][slots_[channel][index_of(id)]];
-    if (luminance <= surplus(id, channel)) return;
+    if (luminance <= surplus(id, channel)) return false;
     e.surplus = luminance;
     note_change(id, channel);
+    return true;
 }
 
 void ShadingCache::mark_buried(VertexId id) {
