@@ -38,9 +38,11 @@ struct Studio {
     UpdateCycle cycle;
 
     Studio(Scene s, const UpdateSettings& settings, Truth by = Truth::path)
+        : Studio(std::move(s), settings, by, coarser_levels(settings.scheme)) {}
+    Studio(Scene s, const UpdateSettings& settings, Truth by, CoarserLevels levels)
         : scene(std::move(s)),
           rays(scene, settings.threads),
-          graphs(scene, coarser_levels(settings.scheme), settings.threads),
+          graphs(scene, levels, settings.threads),
           area_lights(scene),
           open_sides(scene),
           renderer(make_renderer(by, scene, rays, area_lights, &open_sides, settings.threads)),
