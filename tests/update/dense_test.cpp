@@ -134,13 +134,13 @@ TEST(Dense, TheFirstPictureKeepsToItsBudget) {
     RecordProperty("points", std::to_string(points[1]) + " " + std::to_string(points[0]));
 }
 
-// Twenty cycles on, a room of 18 000 triangles looks as the same one of 7 quads.
+// Twelve cycles on, a room of 18 000 triangles looks as the same one of 7 quads.
 TEST(Dense, ComesToThePictureOfThePlainScene) {
     Image pictures[2];
     for (const bool bisected : {false, true}) {
         Studio studio(bisected ? dense(room(), 0.15f) : room(), fixed_size(Scheme::best));
         studio.cycle.look_from(from_a_corner());
-        studio.run(20);
+        studio.run(12);
         pictures[bisected] = studio.cycle.picture();
     }
     const double mean = luminance(mean_of(pictures[0]));
@@ -169,7 +169,7 @@ TEST(Dense, TheSameBitsOnAnyNumberOfThreads) {
 }
 
 // Window blinds: slats of 5 cm x 2 m, nearly all in the dark. The sun falls through two slits of
-// 8 cm, far less than a coarsest cell of 50 cm, so that most coarse vertices agree on darkness. All
+// 3 cm, far less than a coarsest cell of 50 cm, so that most coarse vertices agree on darkness. All
 // is black: light is 1000 lux x cosine or none.
 struct Blinds {
     Scene scene;
@@ -185,11 +185,11 @@ struct Blinds {
         }
         Mesh board;
         for (int i = 0; i < 3; ++i)
-            add_to(board, {-1.53f + float(i), -0.6f, -1}, {0.92f, 0, 0}, {0, 0, 3}, black);
+            add_to(board, {-1.515f + float(i), -0.6f, -1}, {0.97f, 0, 0}, {0, 0, 3}, black);
         Scene fine;
         fine.materials = scene.materials;
         add_object(fine, std::move(slat));
-        bisect_edges(fine, 0.02f);
+        bisect_edges(fine, 0.01f);
         slats = add_object(scene, std::move(fine.meshes[0]));
         add_object(scene, std::move(board));
         scene.lights.push_back(sun({0, 1, -0.4f}, Rgb(1000)));
@@ -202,13 +202,14 @@ struct Blinds {
     }
 };
 
+// What is lit is found sooner than by evaluating vertices at random, which leaves 0.19.
 TEST(Dense, WindowBlindsInTheDarkAreFoundToBeLit) {
     const Blinds blinds;
     Studio studio(blinds.scene, fixed_size(Scheme::best));
     studio.cycle.look_from(
         {{.eye = {0, -0.55f, 0.8f}, .target = {0, 0, 0.3f}, .up = {0, 0, 1}, .vertical_fov = 60},
-         160,
-         120});
+         320,
+         240});
     const auto error = [&] {
         const auto seen = spots_on(studio, blinds.slats);
         return relative_error(seen, traced_lux(studio, seen, 4));
@@ -218,8 +219,8 @@ TEST(Dense, WindowBlindsInTheDarkAreFoundToBeLit) {
     studio.run(9);
     const double tenth = error();
     RecordProperty("errors", std::to_string(first) + " " + std::to_string(tenth));
-    EXPECT_GT(first, 0.2);
-    EXPECT_LT(tenth, 0.2);
+    EXPECT_GT(first, 0.3);
+    EXPECT_LT(tenth, 0.17);
 }
 
 // A table top 25 mm thick and a leg of 5 x 5 cm that stands on air beside it, in a black world with
@@ -296,7 +297,7 @@ TEST(Dense, BuriedVerticesLeaveNoBlackPlaces) {
         {{.eye = {0.3f, 0.4f, 2.6f}, .target = {2, 2, 0}, .up = {0, 0, 1}, .vertical_fov = 70},
          160,
          120});
-    for (const int cycles : {1, 9}) {
+    for (const int cycles : {1, 7}) {
         studio.run(cycles);
         for (const Spot& spot : spots(studio, 1)) ASSERT_GT(spot.lux, 0);
         auto on_floor = spots(studio, 23);
