@@ -182,6 +182,88 @@ TEST(BrightSurfaces, AreThoseBesideALamp) {
     EXPECT_NEAR(radiosity / (0.7 * 1000 * double(kPi) / 2), 1, 0.15);
 }
 
+// A floor of 8 x 8 m and a ceiling 4 m above, all black but the ceiling's lower side. In its middle
+// this is of quads of 5 cm, right above a lamp: bright enough to aim at, in a few cells of 20 cm.
+constexpr float kCeiling = 0.7f, kLampBelow = 0.2f, kCandela = 100;
+constexpr Vec2 kLamp(0.013f, 0.021f);
+Scene lamp_below_a_ceiling() {
+    Scene scene;
+    const MaterialId black = tiny::add_material(scene, Rgb(0));
+    const MaterialId white = tiny::add_material(scene, Rgb(kCeiling));
+    tiny::add_quad(scene, {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, black);
+    Mesh ceiling;
+    const auto add = [&](float x, float y, float size) {
+        const auto first = static_cast<std::uint32_t>(ceiling.positions.size());
+        for (const Vec2 p : {Vec2(0), Vec2(0, 1), Vec2(1), Vec2(1, 0)})
+            ceiling.positions.push_back({x + size * p.x, y + size * p.y, 4});
+        ceiling.primitives.push_back(tiny::quad(first, first + 1, first + 2, first + 3, white));
+    };
+    for (int i = -4; i < 4; ++i)
+        for (int j = -4; j < 4; ++j) {
+            const auto x = static_cast<float>(i), y = static_cast<float>(j);
+            if (std::max(std::abs(x + 0.5f), std::abs(y + 0.5f)) > 1) {
+                add(x, y, 1);
+                continue;
+            }
+            for (int k = 0; k < 400; ++k)
+                add(x + 0.05f * float(k % 20), y + 0.05f * float(k / 20), 0.05f);
+        }
+    tiny::add_object(scene, std::move(ceiling));
+    scene.lights.push_back(tiny::point_light({kLamp.x, kLamp.y, 4 - kLampBelow}, Rgb(kCandela)));
+    return scene;
+}
+
+// Lux on the floor at `place`: the light of the ceiling, in ever wider rings round the lamp.
+double lux_by_the_ceiling(Vec2 place) {
+    double sum = 0;
+    constexpr int kRings = 300, kSectors = 64;
+    constexpr double kNarrowest = 0.001;
+    const double end = std::log(8 / kNarrowest);
+    for (int i = 0; i < kRings; ++i)
+        for (int k = 0; k < kSectors; ++k) {
+            const double r = kNarrowest * std::exp(end * (i + 0.5) / kRings);
+            const double angle = 2 * kPi * (k + 0.5) / kSectors;
+            const double x = kLamp.x + r * std::cos(angle), y = kLamp.y + r * std::sin(angle);
+            if (std::max(std::abs(x), std::abs(y)) > 4) continue;
+            const double area = r * r * end / kRings * 2 * kPi / kSectors;
+            const double lux =
+                kCandela * kLampBelow / std::pow(r * r + kLampBelow * kLampBelow, 1.5);
+            const double squared =
+                (x - place.x) * (x - place.x) + (y - place.y) * (y - place.y) + 16;
+            sum += area * lux * kCeiling / kPi * 16 / (squared * squared);
+        }
+    return sum;
+}
+
+// Rays that are aimed at what is bright in a cell do not make it out to be as bright all over. Over
+// 16 renderers of their own numbers, each with its cells filled. One scatters by 4.5 %: their mean
+// by 1.1 %, and is further off than 6 % once in 2e7. Filled by aimed rays too it is 18 % too
+// bright.
+TEST(Gather, AimedRaysDoNotBiasTheCells) {
+    const Meter meter(lamp_below_a_ceiling());
+    ASSERT_GT(bright_surfaces(meter.lit, 2).size(), 100u);
+    constexpr int kPlaces = 100, kRenderers = 16;
+    std::vector<ShadeRequest> requests;
+    double expected = 0, gathered = 0;
+    Rng rng(3);
+    for (int i = 0; i < kPlaces; ++i) {
+        const Vec2 p(6 * rng.uniform() - 3, 6 * rng.uniform() - 3);
+        requests.push_back({.place = MeterPlace{{p.x, p.y, 0}, {0, 0, 1}},
+                            .light = Light::indirect,
+                            .seed = rng.next(),
+                            .samples = 512});
+        expected += lux_by_the_ceiling(p) / kPlaces;
+    }
+    for (std::uint32_t i = 0; i < kRenderers; ++i) {
+        GatherRenderer gather = gather_in(meter, 2, hash32(i));
+        shade(gather, requests);
+        for (ShadeRequest& r : requests) r.seed += 977;
+        gathered += mean_luminance(shade(gather, requests)) / kRenderers;
+    }
+    RecordProperty("bias", std::to_string(gathered / expected - 1));
+    EXPECT_NEAR(gathered / expected, 1, 0.06);
+}
+
 // The variance that is reported holds the cells' own: over 16 renderers that filled their cells
 // with other numbers, results scatter as much as they say, within a factor of 2 in the mean of 60
 // places.
