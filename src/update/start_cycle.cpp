@@ -1,0 +1,132 @@
+// The first cycles of a view: a whole picture, as good as its seconds can pay.
+
+#include "update/start_level.h"
+#include "update/update_cycle.h"
+
+#include <algorithm>
+
+namespace chiaro {
+namespace {
+
+// A cycle of fixed size asks for about as much as this.
+constexpr double kFixedFirstPictureSeconds = 0.15;
+
+// Direct light's part of the first picture's time; glossy light's, where it lights the whole
+// picture; and how many times the planned samples a vertex of the first picture may have.
+constexpr double kDirectShare = 0.15;
+constexpr double kGlossyShare = 0.5;
+constexpr std::uint32_t kMostFirstSamples = 4;
+
+// And how few vertices it may have.
+constexpr double kPixelsAVertex = 192;
+
+}  // namespace
+
+// Everything in view, at an even density that the first picture's budget can pay. The paper's
+// scheme evaluates the roots as they are.
+void UpdateCycle::start() {
+    ShadeWork work = new_work();
+    {
+        const StepTimer timer(statistics_.timings, Step::patch_subdivision);
+        mesh_front_.attach(cache_);
+    }
+    if (!settings_.fixed_size && cost_learning_ == 0) measure_costs();
+    {
+        const StepTimer timer(statistics_.timings, Step::patch_subdivision);
+        const double seconds = settings_.fixed_size
+                                   ? kFixedFirstPictureSeconds
+                                   : settings_.first_picture_seconds * threads_at_once();
+        for (int c = 0; c < cache_.channels(); ++c) start_channel(c, seconds, work);
+    }
+    shade(work);
+    if (settings_.scheme == Scheme::best) dig_out();
+    estimate_exposure();
+    refresh(Extent::everything);
+}
+
+// A face whose corners all lie in its neighbours would be black: divides such patches at once,
+// until something of them is known.
+void UpdateCycle::dig_out() {
+    const StepTimer timer(statistics_.timings, Step::sample_selection);
+    constexpr int kMostRounds = 8;
+    for (int round = 0; round < kMostRounds; ++round) {
+        ShadeWork work = new_work();
+        touched_.clear();
+        cache_.resolve();
+        cache_.forget_changes();  // all gains are reckoned in the end
+        for (int c = 0; c < cache_.channels(); ++c) {
+            for (const VertexId v : hollow_in_view(cache_, mesh_front_, c))
+                work.evaluate(cache_, v, c);
+            for (const PatchId patch : dug_in(cache_, c)) divide(patch, c, work);
+        }
+        if (work.points() == 0) break;
+        shade(work);
+    }
+    for (std::size_t i = 0; i < cache_.patches().size(); ++i)
+        expose_if_seen(cache_, static_cast<PatchId>(i));
+}
+
+double UpdateCycle::first_picture_share(int channel) const {
+    double glossy_pixels = 0;
+    for (const Patch& patch : cache_.patches())
+        if (patch.is_root()) glossy_pixels += patch.glossy_pixels;
+    const auto pixels = static_cast<double>(map_.background.pixels.size());
+    const double glossy = kGlossyShare * std::min(1.0, glossy_pixels / pixels);
+    if (plans_[channel].light == Light::glossy) return glossy;
+    return (1 - glossy) *
+           (plans_[channel].light == Light::direct ? kDirectShare : 1 - kDirectShare);
+}
+
+// What samples cost in this scene on this machine, by a few vertices that the first picture needs
+// in any case. The first half of them pays for what a renderer learns once.
+void UpdateCycle::measure_costs() {
+    constexpr std::size_t kVertices = 64;
+    for (int half = 0; half < 2; ++half) {
+        cost_learning_ = static_cast<float>(half);
+        for (int c = 0; c < cache_.channels(); ++c) {
+            int level = MeshFront::kLevels - 1;
+            std::vector<VertexId> vertices;
+            while (level >= 0 && vertices.size() < kVertices)
+                vertices = missing_in_view(cache_, mesh_front_, c, level--);
+            ShadeWork work = new_work();
+            evaluate(std::span(vertices).first(std::min(kVertices, vertices.size())), c,
+                     plans_[c].first_samples, work);
+            shade(work);
+        }
+    }
+    cost_learning_ = 0.2f;
+}
+
+// Asks for the vertices that a channel's share of the first picture's seconds can pay: those of
+// coarser levels where meshes are too dense for it, those of divided patches where they are too
+// coarse.
+void UpdateCycle::start_channel(int channel, double seconds, ShadeWork& work) {
+    const std::uint32_t fewest = plans_[channel].first_samples;
+    if (settings_.scheme == Scheme::paper) {
+        evaluate(missing_in_view(cache_, mesh_front_, channel, 0), channel, fewest, work);
+        return;
+    }
+    const double share = seconds * first_picture_share(channel);
+    const auto affordable = [&](std::uint32_t samples) {
+        return share / (samples * static_cast<double>(gains_.seconds_a_sample[channel]));
+    };
+    const std::uint32_t most = fewest * kMostFirstSamples;
+    const StartLevel start =
+        choose_start_level(cache_, mesh_front_, channel, static_cast<std::size_t>(affordable(most)),
+                           static_cast<std::size_t>(affordable(fewest)));
+    even_out(cache_, map_, mesh_front_, channel, start, static_cast<Cycle>(statistics_.cycles));
+    const auto missing = missing_in_view(cache_, mesh_front_, channel, start.level);
+    // More samples than the plan says where few vertices are needed, since noise is seen before
+    // interpolation is.
+    std::uint32_t samples = most;
+    while (samples > fewest && affordable(samples) < static_cast<double>(missing.size()))
+        samples /= 2;
+    evaluate(missing, channel, samples, work);
+}
+
+void UpdateCycle::evaluate(std::span<const VertexId> vertices, int channel, std::uint32_t samples,
+                           ShadeWork& work) const {
+    for (const VertexId v : vertices) work.evaluate(cache_, v, channel, samples);
+}
+
+}  // namespace chiaro
