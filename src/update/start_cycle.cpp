@@ -30,7 +30,8 @@ void UpdateCycle::start() {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
         mesh_front_.attach(cache_);
     }
-    if (!settings_.fixed_size && cost_learning_ == 0) measure_costs();
+    if (settings_.scheme == Scheme::best && !settings_.fixed_size && cost_learning_ == 0)
+        measure_costs();
     {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
         const double seconds = settings_.fixed_size
@@ -81,16 +82,22 @@ double UpdateCycle::first_picture_share(int channel) const {
 // in any case. The first half of them pays for what a renderer learns once.
 void UpdateCycle::measure_costs() {
     constexpr std::size_t kVertices = 64;
+    std::vector<std::vector<VertexId>> vertices;
+    for (int c = 0; c < cache_.channels(); ++c) {
+        const auto counts = mesh_front_.count_by_level(cache_.shading(c));
+        int level = MeshFront::kLevels - 1;
+        while (level > 0 && counts[level] < 2 * kVertices) --level;
+        vertices.push_back(missing_in_view(cache_, mesh_front_, c, level));
+        vertices.back().resize(std::min(vertices.back().size(), 2 * kVertices));
+    }
     for (int half = 0; half < 2; ++half) {
         cost_learning_ = static_cast<float>(half);
         for (int c = 0; c < cache_.channels(); ++c) {
-            int level = MeshFront::kLevels - 1;
-            std::vector<VertexId> vertices;
-            while (level >= 0 && vertices.size() < kVertices)
-                vertices = missing_in_view(cache_, mesh_front_, c, level--);
+            const std::size_t begin = std::min(half * kVertices, vertices[c].size());
+            const std::size_t end = std::min(begin + kVertices, vertices[c].size());
             ShadeWork work = new_work();
-            evaluate(std::span(vertices).first(std::min(kVertices, vertices.size())), c,
-                     plans_[c].first_samples, work);
+            evaluate(std::span(vertices[c]).subspan(begin, end - begin), c, plans_[c].first_samples,
+                     work);
             shade(work);
         }
     }
