@@ -117,7 +117,7 @@ std::vector<VertexId> hollow_in_view(const ShadingCache& cache, const MeshFront&
     for (std::size_t place = 0; place < mesh.vertices().size(); ++place) {
         const VertexId id = mesh.vertices()[place];
         if (cache.vertex(id).hollow && !cache.evaluated(id, channel) &&
-            mesh.in_view(place, cache.shading(channel)))
+            mesh.pixels(cache, place, channel) >= kSmallest)
             hollow.push_back(id);
     }
     return hollow;

@@ -33,8 +33,9 @@ void even_out(ShadingCache& cache, IdMap& map, const MeshFront& mesh, int channe
 std::vector<VertexId> missing_in_view(const ShadingCache& cache, const MeshFront& mesh, int channel,
                                       int start_level);
 
-/// Vertices of meshes in view in a channel, not evaluated in it, all of whose parents are buried:
-/// nothing is known there.
+/// Vertices of meshes on which more than a few pixels weigh in a channel, not evaluated in it, all
+/// of whose parents are buried: nothing is known there. (Smaller ones gain much, and soon have
+/// their turn.)
 std::vector<VertexId> hollow_in_view(const ShadingCache& cache, const MeshFront& mesh, int channel);
 
 /// Patches in view all or all but one of whose corners are buried, although something of them is
