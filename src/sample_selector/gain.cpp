@@ -23,7 +23,7 @@ constexpr float kUnseen = 0.2f;
 // How much less a vertex that has found no light varies than one of the same samples that has.
 constexpr float kDoubt = 4;
 
-// The same from a vertex of a mesh to those that it speaks for, which may face elsewhere.
+// kSurplusNext from a vertex of a mesh to those that it speaks for, which may face elsewhere.
 constexpr float kSurplusOfMesh = 0.5f;
 
 // Error on the curve's scale that is suspected at a vertex of a mesh that is not evaluated: its

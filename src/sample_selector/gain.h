@@ -36,7 +36,8 @@ bool on_front(const ShadingCache& cache, PatchId patch, int channel);
 std::uint32_t samples_of_new(const ShadingCache& cache, PatchId patch, int channel,
                              const GainSettings& settings);
 
-/// Gain at a patch of the front. Zero where nothing of it is in view that the channel lights.
+/// Gain at a patch of the front. Zero where nothing of it is in view that the channel lights, and
+/// while a corner of it is not evaluated.
 ///
 /// Refining pays for the error that the surplus of its corners and their range predict; but a
 /// difference within the corners' standard error is noise, and asks for samples (section 8).

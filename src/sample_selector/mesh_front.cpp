@@ -14,9 +14,12 @@ void MeshFront::attach(const ShadingCache& cache) {
     vertices_.clear();
     levels_.clear();
     gains_.clear();
+    places_.clear();
     for (std::size_t i = 0; i < cache.vertices().size(); ++i) {
         if (!cache.vertices()[i].of_mesh) continue;
         const auto id = static_cast<VertexId>(i);
+        places_.resize(i + 1, kNowhere);
+        places_[i] = static_cast<std::uint32_t>(vertices_.size());
         vertices_.push_back(id);
         levels_.push_back(static_cast<std::uint8_t>(std::min(cache.level(id), kLevels - 1)));
     }
@@ -95,13 +98,8 @@ std::array<std::size_t, MeshFront::kLevels> MeshFront::count_by_level(Shading sh
     return counts;
 }
 
-// After the first view the vertices of meshes are the cache's first ones.
 std::size_t MeshFront::place_of(VertexId vertex) const {
-    const std::size_t guess = index_of(vertex);
-    if (guess < vertices_.size() && vertices_[guess] == vertex) return guess;
-    const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), vertex);
-    if (found == vertices_.end() || *found != vertex) return kNowhere;
-    return static_cast<std::size_t>(found - vertices_.begin());
+    return index_of(vertex) < places_.size() ? places_[index_of(vertex)] : kNowhere;
 }
 
 float MeshFront::pixels(const ShadingCache& cache, std::size_t place, int channel) const {
@@ -131,15 +129,25 @@ std::vector<VertexId> MeshFront::settle(ShadingCache& cache, std::span<const Ver
         const Shading kind = cache.shading(channel);
         lift(cache, id, channel,
              own_[static_cast<int>(kind)][place] + std::max(0.0f, spoken_for_[channel][place]));
-        for (const VertexId parent : cache.vertex(id).known_parents()) {
-            if (!cache.evaluated(parent, channel) || cache.vertex(parent).buried) continue;
-            if (cache.suspect(parent, channel, cache.surplus(id, channel)))
-                suspects.push_back(parent);
-            reckon(cache, parent, channel, settings);
-        }
+        blame(cache, id, channel, cache.surplus(id, channel), suspects);
         reckon(cache, id, channel, settings);
     }
+    for (const VertexId id : suspects) reckon(cache, id, channel, settings);
     return suspects;
+}
+
+// Lays a miss to those that spoke for a vertex, and to those farther above it by their part in
+// that.
+void MeshFront::blame(ShadingCache& cache, VertexId vertex, int channel, float surplus,
+                      std::vector<VertexId>& suspects) const {
+    const CacheVertex& v = cache.vertex(vertex);
+    for (std::size_t i = 0; i < v.known_parents().size(); ++i) {
+        const VertexId parent = v.parents[i];
+        if (!cache.evaluated(parent, channel))
+            blame(cache, parent, channel, v.weight(i) * surplus, suspects);
+        else if (!cache.vertex(parent).buried && cache.suspect(parent, channel, surplus))
+            suspects.push_back(parent);
+    }
 }
 
 float MeshFront::gain_at(const ShadingCache& cache, std::size_t place, int channel,
@@ -212,8 +220,11 @@ void MeshFront::rest(VertexId vertex, int channel) {
 }
 
 std::size_t MeshFront::bytes() const {
-    std::size_t total =
-        vertices_.capacity() * sizeof(VertexId) + levels_.capacity() + in_view_.capacity();
+    std::size_t total = vertices_.capacity() * sizeof(VertexId) + levels_.capacity() +
+                        in_view_.capacity() + places_.capacity() * sizeof(std::uint32_t) +
+                        marked_.capacity() * sizeof(std::uint64_t);
+    total += 4 * (children_.first.capacity() + children_.entries.capacity() +
+                  roots_.first.capacity() + roots_.entries.capacity());
     for (const auto& own : own_) total += own.capacity() * sizeof(float);
     for (const auto& spoken_for : spoken_for_) total += spoken_for.capacity() * sizeof(float);
     for (const SumTree& gains : gains_) total += gains.bytes();

@@ -65,7 +65,7 @@ public:
     std::size_t bytes() const;
 
 private:
-    static constexpr std::size_t kNowhere = ~std::size_t{0};
+    static constexpr std::uint32_t kNowhere = 0xffff'ffff;
     std::size_t place_of(VertexId vertex) const;
     void link(const ShadingCache& cache);
     void weigh(const ShadingCache& cache);
@@ -86,8 +86,12 @@ private:
     template <typename T, typename ForEach>
     Lists<T> make_lists(const ForEach& for_each) const;
 
+    void blame(ShadingCache& cache, VertexId vertex, int channel, float surplus,
+               std::vector<VertexId>& suspects) const;
+
     std::vector<VertexId> vertices_;
-    Lists<std::uint32_t> children_;  // places
+    std::vector<std::uint32_t> places_;  // by VertexId up to the last: in vertices_, or kNowhere
+    Lists<std::uint32_t> children_;      // places
     Lists<PatchId> roots_;
     std::vector<std::uint64_t> marked_;  // a bit a place, for carry()
     std::vector<std::uint8_t> levels_;

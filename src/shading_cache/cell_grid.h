@@ -48,7 +48,7 @@ inline CellPlace cell_place(std::uint64_t code) {
 
 /// The finest grid: cubes of size `cell` from the corner `low` on. What lies outside of its 2^21
 /// cells an axis counts as in the outermost.
-struct CellGrid {
+struct MortonGrid {
     Vec3 low;
     double cell;
 

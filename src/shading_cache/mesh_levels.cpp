@@ -18,7 +18,7 @@ constexpr std::size_t kRange = 4096;  // what one body of a parallel loop does a
 
 // The grids of all levels: those whose cells are too small to be counted are left out.
 struct Grids {
-    CellGrid finest;
+    MortonGrid finest;
     int finest_level;
     LevelGrid of(int level) const {
         const int steps = level - finest_level;
@@ -46,7 +46,7 @@ Vec3 corner_position(const Mesh& mesh, MeshCorner corner) {
 }
 
 // Numbers the vertices in the order of their cells, and returns them.
-std::vector<LevelVertex> order_vertices(const Mesh& mesh, const CellGrid& grid, int threads,
+std::vector<LevelVertex> order_vertices(const Mesh& mesh, const MortonGrid& grid, int threads,
                                         MeshGraph& graph) {
     const std::size_t count = graph.vertex_count();
     std::vector<KeyedIndex> order(count);

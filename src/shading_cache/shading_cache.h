@@ -139,6 +139,8 @@ public:
     bool changed(VertexId vertex, int channel) const {
         return changed_[index_of(vertex)] >> channel & 1;
     }
+    /// Or in any channel.
+    bool changed(VertexId vertex) const { return changed_[index_of(vertex)] != 0; }
     void forget_changes();
 
     /// Bytes that the cache's arrays and tables hold, unused capacity included.

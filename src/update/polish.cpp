@@ -132,10 +132,12 @@ void UpdateCycle::light_surfaces(std::span<const Fragment> fragments, ShadeWork&
     const auto light = [&](const auto& again, VertexId id, int channel) -> void {
         if (cache_.evaluated(id, channel)) return;
         if (!met.insert(index_of(id) * 8 + static_cast<std::uint64_t>(channel)).second) return;
-        const CacheVertex& vertex = cache_.vertex(id);
-        if (vertex.parents[0] == VertexId::none) work.evaluate(cache_, id, channel);
-        for (int i = 0; i < 4 && vertex.parents[i] != VertexId::none; ++i)
-            again(again, vertex.parents[i], channel);
+        const auto parents = cache_.vertex(id).known_parents();
+        bool known = true;
+        for (const VertexId parent : parents) known &= cache_.evaluated(parent, channel);
+        // Meshes that it finds are known a level better after every pass.
+        if (cache_.vertex(id).of_mesh && known) work.evaluate(cache_, id, channel);
+        for (const VertexId parent : parents) again(again, parent, channel);
     };
     for (const Fragment& f : fragments)
         for (int channel = 0; channel < cache_.channels(); ++channel) {

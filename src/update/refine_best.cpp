@@ -25,6 +25,8 @@ void UpdateCycle::refine() {
     touched_.clear();
     touched_vertices_.clear();
     choose(work);
+    // Nothing is left that gains before it is known what was learned.
+    const bool idle = work.points() == 0;
     shade(work);
     {
         const StepTimer timer(statistics_.timings, Step::sample_selection);
@@ -35,7 +37,7 @@ void UpdateCycle::refine() {
         for (const auto& [vertex, channel] : touched_vertices_)
             mesh_front_.reckon(cache_, vertex, channel, gains_);
     }
-    carry_down();
+    if (idle || points_since_carry_ * kVerticesCarriedAPoint >= vertices_carried_) carry_down();
     // Neighbours of what was shaded learn of it here. Waiting for a part of the vertices keeps
     // this look at everything a small part of the whole.
     if (points_since_refresh_ * kVerticesAPoint > cache_.vertices().size())
@@ -45,7 +47,6 @@ void UpdateCycle::refine() {
 // Dense meshes learn sooner, as many vertices wait for few: of each vertex those that it speaks
 // for, and the patches whose corners are known now.
 void UpdateCycle::carry_down() {
-    if (points_since_carry_ * kVerticesCarriedAPoint < vertices_carried_) return;
     const StepTimer timer(statistics_.timings, Step::update_display_meshes);
     points_since_carry_ = 0;
     vertices_carried_ = 0;
@@ -191,10 +192,11 @@ float UpdateCycle::front_gain(PatchId id, int channel) const {
     return gain(cache_, id, channel, gains_).best();
 }
 
-bool UpdateCycle::front_changed(PatchId id, int channel) const {
+// What a patch gains in one channel depends on its light in all.
+bool UpdateCycle::front_changed(PatchId id) const {
     const Patch& patch = cache_.patch(id);
     for (int i = 0; i < patch.corner_count(); ++i)
-        if (cache_.changed(patch.corners[i], channel)) return true;
+        if (cache_.changed(patch.corners[i])) return true;
     return false;
 }
 
@@ -229,7 +231,7 @@ void UpdateCycle::reckon_front(int channel, Extent extent) {
         for (std::size_t i = block * kBlock; i < last; ++i) {
             const auto id = static_cast<PatchId>(i);
             const bool as_before =
-                extent == Extent::what_changed && i < known.size() && !front_changed(id, channel);
+                extent == Extent::what_changed && i < known.size() && !front_changed(id);
             gains[i] = as_before ? known.weight(i) : front_gain(id, channel);
         }
     });

@@ -45,6 +45,7 @@ void UpdateCycle::refine_as_paper() {
     {
         const StepTimer timer(statistics_.timings, Step::update_display_meshes);
         cache_.resolve();
+        cache_.forget_changes();
     }
 
     // The next cycle asks for as many as would have filled this one's time.

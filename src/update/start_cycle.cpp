@@ -17,9 +17,6 @@ constexpr double kDirectShare = 0.15;
 constexpr double kGlossyShare = 0.5;
 constexpr std::uint32_t kMostFirstSamples = 4;
 
-// And how few vertices it may have.
-constexpr double kPixelsAVertex = 192;
-
 }  // namespace
 
 // Everything in view, at an even density that the first picture's budget can pay. The paper's
@@ -81,20 +78,25 @@ double UpdateCycle::first_picture_share(int channel) const {
 // What samples cost in this scene on this machine, by a few vertices that the first picture needs
 // in any case. The first half of them pays for what a renderer learns once.
 void UpdateCycle::measure_costs() {
-    constexpr std::size_t kVertices = 64;
+    const std::size_t at_once = 32 * static_cast<std::size_t>(std::max(2, threads_at_once()));
     std::vector<std::vector<VertexId>> vertices;
     for (int c = 0; c < cache_.channels(); ++c) {
         const auto counts = mesh_front_.count_by_level(cache_.shading(c));
         int level = MeshFront::kLevels - 1;
-        while (level > 0 && counts[level] < 2 * kVertices) --level;
-        vertices.push_back(missing_in_view(cache_, mesh_front_, c, level));
-        vertices.back().resize(std::min(vertices.back().size(), 2 * kVertices));
+        while (level > 0 && counts[level] < 2 * at_once) --level;
+        const auto missing = missing_in_view(cache_, mesh_front_, c, level);
+        // From all over the picture, not from its first rows.
+        std::vector<VertexId> some;
+        const std::size_t step = std::max<std::size_t>(1, missing.size() / (2 * at_once));
+        for (std::size_t i = 0; i < missing.size() && some.size() < 2 * at_once; i += step)
+            some.push_back(missing[i]);
+        vertices.push_back(std::move(some));
     }
     for (int half = 0; half < 2; ++half) {
         cost_learning_ = static_cast<float>(half);
         for (int c = 0; c < cache_.channels(); ++c) {
-            const std::size_t begin = std::min(half * kVertices, vertices[c].size());
-            const std::size_t end = std::min(begin + kVertices, vertices[c].size());
+            const std::size_t begin = std::min(half * at_once, vertices[c].size());
+            const std::size_t end = std::min(begin + at_once, vertices[c].size());
             ShadeWork work = new_work();
             evaluate(std::span(vertices[c]).subspan(begin, end - begin), c, plans_[c].first_samples,
                      work);

@@ -11,6 +11,9 @@ namespace {
 // Patches that cover fewer pixels wait for a reason to be divided.
 constexpr std::uint32_t kSmallest = 16;
 
+// What nothing is known of is black: fewer pixels than this may wait for their turn.
+constexpr float kSpeck = 4;
+
 // A patch of no more fragments than this is seen wherever its corners are.
 constexpr std::uint32_t kSeenAllOver = 64;
 
@@ -22,10 +25,6 @@ struct Large {
         return pixels != o.pixels ? pixels < o.pixels : patch > o.patch;
     }
 };
-
-// Meshes may have this many times the vertices that the first picture can pay and still start as
-// they are: fine detail is worth a longer wait than its loss (docs/overview.md).
-constexpr double kPatience = 1;
 
 }  // namespace
 
@@ -40,7 +39,7 @@ StartLevel choose_start_level(const ShadingCache& cache, const MeshFront& mesh, 
         total += pixels;
     }
     const auto counts = mesh.count_by_level(cache.shading(channel));
-    if (static_cast<double>(counts[0]) <= kPatience * static_cast<double>(most)) return {0, fewest};
+    if (counts[0] <= most) return {0, fewest};
 
     for (int level = 1;; ++level) {
         const bool coarsest = level + 1 == MeshFront::kLevels || counts[level + 1] == 0;
@@ -57,16 +56,18 @@ StartLevel choose_start_level(const ShadingCache& cache, const MeshFront& mesh, 
 void even_out(ShadingCache& cache, IdMap& map, const MeshFront& mesh, int channel,
               const StartLevel& start, Cycle now) {
     std::priority_queue<Large> large;
-    std::size_t in_view = 0;
+    std::size_t in_view = 0, roots_in_view = 0;
     const auto add = [&](PatchId id) {
         const Patch& p = cache.patch(id);
         const float pixels = cache.pixels(p, channel);
         if (!(pixels > 0) || !on_front(cache, id, channel)) return;
         ++in_view;  // a regular mesh has about as many vertices as leaves
+        if (p.is_root()) ++roots_in_view;
         if (pixels > kSmallest && p.fragment_count > 1 && p.divisible()) large.push({pixels, id});
     };
     for (std::size_t i = 0; i < cache.patches().size(); ++i) add(static_cast<PatchId>(i));
-    if (start.level > 0) in_view = mesh.count_by_level(cache.shading(channel))[start.level];
+    if (start.level > 0)
+        in_view += mesh.count_by_level(cache.shading(channel))[start.level] - roots_in_view;
 
     while (!large.empty() && in_view < start.vertices) {
         const PatchId id = large.top().patch;
@@ -117,7 +118,7 @@ std::vector<VertexId> hollow_in_view(const ShadingCache& cache, const MeshFront&
     for (std::size_t place = 0; place < mesh.vertices().size(); ++place) {
         const VertexId id = mesh.vertices()[place];
         if (cache.vertex(id).hollow && !cache.evaluated(id, channel) &&
-            mesh.pixels(cache, place, channel) >= kSmallest)
+            mesh.pixels(cache, place, channel) >= kSpeck)
             hollow.push_back(id);
     }
     return hollow;

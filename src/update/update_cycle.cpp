@@ -133,10 +133,12 @@ void UpdateCycle::shade(ShadeWork& work) {
         const std::vector<VertexId> new_ones = evaluated_first(work, c);
         const double seconds =
             work.shade(cache_, *renderer_, c, static_cast<Cycle>(statistics_.cycles));
-        const auto suspects = mesh_front_.settle(cache_, new_ones, c, gains_);
-        news_[c].insert(news_[c].end(), suspects.begin(), suspects.end());
-        for (const VertexId v : work.vertices(c))
-            if (cache_.vertex(v).of_mesh) news_[c].push_back(v);
+        if (settings_.scheme == Scheme::best) {
+            const auto suspects = mesh_front_.settle(cache_, new_ones, c, gains_);
+            news_[c].insert(news_[c].end(), suspects.begin(), suspects.end());
+            for (const VertexId v : work.vertices(c))
+                if (cache_.vertex(v).of_mesh) news_[c].push_back(v);
+        }
         statistics_.samples[c] += work.samples(c);
         if (settings_.fixed_size || work.samples(c) < 2000) continue;
         const double measured = seconds * threads_at_once() / static_cast<double>(work.samples(c));

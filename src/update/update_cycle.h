@@ -114,7 +114,7 @@ private:
     void spend_on(VertexId vertex, int channel, ShadeWork& work);
     void shade(ShadeWork& work);
     float front_gain(PatchId patch, int channel) const;
-    bool front_changed(PatchId patch, int channel) const;
+    bool front_changed(PatchId patch) const;
     enum class Extent { what_changed, everything };
     void carry_down();
     void refresh(Extent extent);
