@@ -134,7 +134,7 @@ TEST(Dense, TheFirstPictureKeepsToItsBudget) {
     RecordProperty("points", std::to_string(points[1]) + " " + std::to_string(points[0]));
 }
 
-// Eight cycles on, a room of 18 000 triangles looks as the same one of 7 quads.
+// Eight cycles on, a room of 25 000 triangles looks as the same one of 7 quads.
 TEST(Dense, ComesToThePictureOfThePlainScene) {
     Image pictures[2];
     for (const bool bisected : {false, true}) {
