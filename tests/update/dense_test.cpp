@@ -138,13 +138,14 @@ TEST(Dense, TheFirstPictureKeepsToItsBudget) {
 TEST(Dense, ComesToThePictureOfThePlainScene) {
     Image pictures[2];
     for (const bool bisected : {false, true}) {
-        Studio studio(bisected ? dense(room(), 0.15f) : room(), fixed_size(Scheme::best));
+        Studio studio(bisected ? dense(room(), 0.15f) : room(), fixed_size(Scheme::best),
+                      Truth::gather);
         studio.cycle.look_from(from_a_corner());
         studio.run(8);
         pictures[bisected] = studio.cycle.picture();
     }
     const double mean = luminance(mean_of(pictures[0]));
-    EXPECT_NEAR(luminance(mean_of(pictures[1])) / mean, 1, 0.01);
+    EXPECT_NEAR(luminance(mean_of(pictures[1])) / mean, 1, 0.005);
     double squares = 0;
     for (std::size_t i = 0; i < pictures[0].pixels.size(); ++i) {
         const double error =
@@ -152,7 +153,7 @@ TEST(Dense, ComesToThePictureOfThePlainScene) {
         squares += error * error / double(pictures[0].pixels.size());
     }
     RecordProperty("rmse", std::to_string(std::sqrt(squares) / mean));
-    EXPECT_LT(std::sqrt(squares) / mean, 0.06);
+    EXPECT_LT(std::sqrt(squares) / mean, 0.02);
 }
 
 TEST(Dense, TheSameBitsOnAnyNumberOfThreads) {
