@@ -20,6 +20,9 @@ constexpr float kContact = 0.25f;
 // buried.
 constexpr float kUnseen = 0.2f;
 
+// And of a vertex of a mesh of which nothing is known at all: it shows black.
+constexpr float kBlack = 0.5f;
+
 // How much less a vertex that has found no light varies than one of the same samples that has.
 constexpr float kDoubt = 4;
 
@@ -177,23 +180,22 @@ float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, flo
                     const GainSettings& settings) {
     const CacheVertex& v = cache.vertex(vertex);
     const auto parents = v.known_parents();
+    const float cost = static_cast<float>(samples_of_new(cache, parents, channel, settings)) *
+                       settings.seconds_a_sample[channel];
+    if (v.hollow) return kBlack * kBlack * pixels / cost;
+
     float known = 0;
     for (std::size_t i = 0; i < parents.size(); ++i)
         if (cache.evaluated(parents[i], channel)) known += v.weight(i);
-    if (!parents.empty() && known < kEnoughKnown) return 0;
+    if (known < kEnoughKnown) return 0;
 
     Survey survey;
     for (std::size_t i = 0; i < parents.size(); ++i)
         if (cache.evaluated(parents[i], channel))
             survey.add(cache, parents[i], channel, v.weight(i) / known);
     const float slope = to_curve(cache, vertex, channel, settings.scale);
-    float seen2 = kUnproven * kUnproven;
-    if (survey.count > 0) seen2 += survey.error2(kSurplusOfMesh) * slope * slope;
-    // Nothing speaks for it.
-    if (survey.buried == survey.count) seen2 += kUnseen * kUnseen;
-    const float cost = static_cast<float>(samples_of_new(cache, parents, channel, settings)) *
-                       settings.seconds_a_sample[channel];
-    return seen2 * pixels / cost;
+    const float error2 = survey.error2(kSurplusOfMesh) * slope * slope + kUnproven * kUnproven;
+    return error2 * pixels / cost;
 }
 
 float gain_of_more(const ShadingCache& cache, VertexId vertex, int channel, float pixels,

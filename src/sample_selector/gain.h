@@ -49,7 +49,8 @@ std::uint32_t samples_of_new(const ShadingCache& cache, VertexId vertex, int cha
                              const GainSettings& settings);
 
 /// Gain of evaluating a vertex of the mesh on which `pixels` weigh: what its parents' surplus and
-/// range predict. Zero while less than half of them is evaluated, as coarse ones go first.
+/// range predict. Zero while less than half of them is evaluated, as coarse ones go first, unless
+/// it is hollow.
 float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, float pixels,
                     const GainSettings& settings);
 
