@@ -11,8 +11,8 @@ namespace {
 // Patches that cover fewer pixels wait for a reason to be divided.
 constexpr std::uint32_t kSmallest = 16;
 
-// What nothing is known of is black: fewer pixels than this may wait for their turn.
-constexpr float kSpeck = 4;
+// What nothing is known of is black: only specks of less than a pixel wait for their turn.
+constexpr float kSpeck = 1;
 
 // A patch of no more fragments than this is seen wherever its corners are.
 constexpr std::uint32_t kSeenAllOver = 64;

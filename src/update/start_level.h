@@ -33,7 +33,7 @@ void even_out(ShadingCache& cache, IdMap& map, const MeshFront& mesh, int channe
 std::vector<VertexId> missing_in_view(const ShadingCache& cache, const MeshFront& mesh, int channel,
                                       int start_level);
 
-/// Vertices of meshes on which more than a few pixels weigh in a channel, not evaluated in it, all
+/// Vertices of meshes on which a pixel or more weighs in a channel, not evaluated in it, all
 /// of whose parents are buried: nothing is known there. (Smaller ones gain much, and soon have
 /// their turn.)
 std::vector<VertexId> hollow_in_view(const ShadingCache& cache, const MeshFront& mesh, int channel);
