@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.image as files
 import matplotlib.pyplot as plt
 
-from results import draw_error, finish_error, psnr_at, write_table
+from results import draw_error, finish_error, finish_sizes, psnr_at, write_table
 
 ORDER = ["room", "kitchen", "classroom"]
 NAMES = {"best": "levels", "roots": "no levels"}
@@ -119,11 +119,7 @@ def draw_load(rows, file):
     space.set_title("bytes a triangle (dotted: Embree's)")
     space.set_ylim(bottom=0)
     for axis in (seconds, space):
-        axis.set_xscale("log")
-        axis.set_xlabel("triangles")
-        axis.grid(True, which="both", alpha=0.3)
-        axis.legend(fontsize=8)
-        axis.title.set_fontsize(10)
+        finish_sizes(axis, "triangles")
     figure.tight_layout()
     figure.savefig(file, dpi=80)
 

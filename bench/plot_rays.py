@@ -11,7 +11,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from results import write_table
+from results import finish_sizes, write_table
 
 BAR = 0.8  # of Embree's own rate: what `path` is to reach
 
@@ -46,11 +46,7 @@ def draw(rows, file):
     rates.set_title("irradiance points a second, one thread (dotted: Embree alone)")
     ratios.set_title("part of Embree's own rate")
     for axis in (rates, ratios):
-        axis.set_xscale("log")
-        axis.set_xlabel("quads")
-        axis.grid(True, which="both", alpha=0.3)
-        axis.legend(fontsize=8)
-        axis.title.set_fontsize(10)
+        finish_sizes(axis, "quads")
     figure.tight_layout()
     figure.savefig(file, dpi=80)
 

@@ -47,3 +47,12 @@ def finish_error(axis, run):
     axis.set_ylabel("PSNR against the reference [dB]")
     axis.grid(True, which="both", alpha=0.3)
     axis.legend(loc="lower right", fontsize=8)
+
+
+def finish_sizes(axis, what):
+    """Scale, grid and names of a titled panel with curves over the number of `what` in a scene."""
+    axis.set_xscale("log")
+    axis.set_xlabel(what)
+    axis.grid(True, which="both", alpha=0.3)
+    axis.legend(fontsize=8)
+    axis.title.set_fontsize(10)

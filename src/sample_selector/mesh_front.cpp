@@ -4,11 +4,6 @@
 #include <bit>
 
 namespace chiaro {
-namespace {
-
-constexpr std::array<Shading, 2> kKinds = {Shading::irradiance, Shading::glossy};
-
-}  // namespace
 
 void MeshFront::attach(const ShadingCache& cache) {
     vertices_.clear();

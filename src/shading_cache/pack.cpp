@@ -51,8 +51,8 @@ void ShadingCache::pack() {
                 vertex_kept[index_of(patches_[i].corners[c])] = 1;
     for (std::size_t i = vertices_.size(); i-- > 0;)
         if (vertex_kept[i])
-            for (const VertexId parent : vertices_[i].parents)
-                if (parent != VertexId::none) vertex_kept[index_of(parent)] = 1;
+            for (const VertexId parent : vertices_[i].known_parents())
+                vertex_kept[index_of(parent)] = 1;
 
     const auto new_patch = renumber<PatchId>(patch_kept);
     const auto new_vertex = renumber<VertexId>(vertex_kept);

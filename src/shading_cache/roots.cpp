@@ -6,6 +6,8 @@
 
 namespace chiaro {
 
+static_assert(MeshGraph::kFullWeight == CacheVertex::kFullWeight);  // weights are taken as they are
+
 /// One side of a mesh in its place in the scene, with what its ids are counted from.
 struct ShadingCache::MeshPlace {
     const Mesh& mesh;

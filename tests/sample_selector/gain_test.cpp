@@ -2,6 +2,7 @@
 // of view.
 #include "sample_selector/gain.h"
 
+#include "sample_selector/gain_settings.h"
 #include "shading_cache/cache_testing.h"
 
 #include <gtest/gtest.h>
@@ -10,13 +11,6 @@ namespace chiaro {
 namespace {
 
 using namespace tiny;
-
-GainSettings settings() {
-    GainSettings s;
-    s.seconds_a_sample.fill(1e-6f);
-    s.first_samples.fill(32);
-    return s;
-}
 
 // A square of which `fragments` are in view, and its midpoints evaluated.
 struct Square {

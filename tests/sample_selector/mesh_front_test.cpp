@@ -1,6 +1,7 @@
 // The front of refinement on dense meshes: what weighs on which vertex, and who learns of what.
 #include "sample_selector/mesh_front.h"
 
+#include "sample_selector/gain_settings.h"
 #include "shading_cache/dense_grid.h"
 
 #include <gtest/gtest.h>
@@ -11,13 +12,6 @@ namespace chiaro {
 namespace {
 
 using namespace tiny;
-
-GainSettings settings() {
-    GainSettings s;
-    s.seconds_a_sample.fill(1e-6f);
-    s.first_samples.fill(32);
-    return s;
-}
 
 // A dense grid of which a part is in view, and the front of all its vertices.
 struct Front {
