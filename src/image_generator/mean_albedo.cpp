@@ -4,19 +4,69 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace chiaro {
 
-Rgb mean_diffuse_albedo(const Scene& scene, const SeenPiece& piece, const SurfacePoint& beside,
-                        const SurfacePoint& below) {
+namespace {
+
+// Primitives in a row within a pixel of which one cannot speak for the others.
+constexpr float kMostPrimitives = 100;
+
+// What (u, v) change by along two edges of the half of a primitive that a point lies on, in world
+// space.
+struct Edges {
+    Vec3 u, v;
+};
+Edges edges_at(const Scene& scene, const SurfacePoint& point) {
+    const bool second_half = point.u + point.v > 1;
+    const float corner = second_half ? 1.0f : 0.0f;
+    const auto place = [&](float u, float v) {
+        return surface_position(scene, {point.object, point.primitive, u, v});
+    };
+    const float sign = 1 - 2 * corner;
+    const Vec3 origin = place(corner, corner);
+    return {sign * (place(1 - corner, corner) - origin),
+            sign * (place(corner, 1 - corner) - origin)};
+}
+
+}  // namespace
+
+std::optional<PixelFootprint> footprint_on_plane(const Scene& scene, const View& view, int x, int y,
+                                                 const SurfacePoint& point) {
+    const Vec3 here = surface_position(scene, point);
+    const Edges edge = edges_at(scene, point);
+    const Vec3 normal = glm::cross(edge.u, edge.v);
+    const float area2 = glm::dot(normal, normal);
+    if (!(area2 > 0)) return std::nullopt;
+    const float distance = glm::distance(here, view.eye());
+
+    // Where the next pixel's ray meets the plane, in terms of the edges.
+    const auto change_to = [&](int next_x, int next_y) -> std::optional<Vec2> {
+        const Ray ray =
+            view.ray(static_cast<float>(next_x) + 0.5f, static_cast<float>(next_y) + 0.5f);
+        const float t = glm::dot(here - ray.origin, normal) / glm::dot(ray.direction, normal);
+        if (!(t > 0.5f * distance && t < 2 * distance)) return std::nullopt;
+        const Vec3 there = ray.origin + t * ray.direction - here;
+        return Vec2(glm::dot(glm::cross(there, edge.v), normal),
+                    glm::dot(glm::cross(edge.u, there), normal)) /
+               area2;
+    };
+    const auto across = change_to(x + 1, y), down = change_to(x, y + 1);
+    if (!across || !down) return std::nullopt;
+    const float largest =
+        std::max({std::abs(across->x), std::abs(across->y), std::abs(down->x), std::abs(down->y)});
+    if (!(largest < kMostPrimitives)) return std::nullopt;
+    return PixelFootprint{*across, *down};
+}
+
+Rgb mean_diffuse_albedo(const Scene& scene, const SeenPiece& piece,
+                        const PixelFootprint& footprint) {
     const SurfacePoint& here = piece.point;
-    const Vec2 across(beside.u - here.u, beside.v - here.v);
-    const Vec2 down(below.u - here.u, below.v - here.v);
     const auto albedo_at = [&](float x, float y) {
         SurfacePoint p = here;
-        const Vec2 uv = Vec2(here.u, here.v) + x * across + y * down;
-        p.u = std::clamp(uv.x, 0.0f, 1.0f);
-        p.v = std::clamp(uv.y, 0.0f, 1.0f);
+        p.u += x * footprint.across.x + y * footprint.down.x;
+        p.v += x * footprint.across.y + y * footprint.down.y;
         return diffuse_albedo(bsdf_at(scene, p, piece.front), piece.cosine);
     };
     // Four places, irregular so that no pattern falls in step with them, show whether there is any

@@ -8,24 +8,37 @@
 namespace chiaro {
 namespace {
 
+// What a pixel covers of the surface that its centre's ray met. In mirrors only neighbours on the
+// same primitive tell.
+std::optional<PixelFootprint> footprint_of(const Viewing& viewing,
+                                           std::span<const CentreRow> centres, int y,
+                                           const CentreHit& hit) {
+    if (hit.trail == 0)
+        return footprint_on_plane(viewing.rays.scene(), viewing.view, static_cast<int>(hit.x), y,
+                                  hit.point);
+    const Neighbours near = on_same_primitive(centres, hit, y);
+    if (!near.beside || !near.below) return std::nullopt;
+    const auto change_to = [&](const SurfacePoint& p) {
+        return Vec2(p.u - hit.point.u, p.v - hit.point.v);
+    };
+    return PixelFootprint{change_to(near.beside->point), change_to(near.below->point)};
+}
+
 // Textures averaged over a pixel that shows no outline: over what the pixel's centre ray met by
 // each trail.
-void average_texture(const Scene& scene, std::span<const CentreRow> centres, int y,
+void average_texture(const Viewing& viewing, std::span<const CentreRow> centres, int y,
                      SeenPiece& piece) {
     const CentreHit* centre = find_trail(centres[y].at(static_cast<int>(piece.x)), piece.trail);
     if (!centre || !centre->textured) return;
-    const Neighbours near = on_same_primitive(centres, *centre, y);
-    const Rgb albedo = mean_diffuse_albedo(scene, piece, near.beside->point, near.below->point);
+    const auto footprint = footprint_of(viewing, centres, y, *centre);
+    const Rgb albedo = mean_diffuse_albedo(viewing.rays.scene(), piece, *footprint);
     piece.reflectance = piece.weight * albedo * (1 / kPi);
 }
 
-// Whether a texture shows in the pixel whose mean no neighbours tell.
-bool cornered(std::span<const CentreRow> centres, int x, int y) {
-    for (const CentreHit& hit : centres[y].at(x)) {
-        if (!hit.textured) continue;
-        const Neighbours near = on_same_primitive(centres, hit, y);
-        if (!near.beside || !near.below) return true;
-    }
+// Whether a texture shows in the pixel of which it is not known what it covers.
+bool cornered(const Viewing& viewing, std::span<const CentreRow> centres, int x, int y) {
+    for (const CentreHit& hit : centres[y].at(x))
+        if (hit.textured && !footprint_of(viewing, centres, y, hit)) return true;
     return false;
 }
 
@@ -40,7 +53,7 @@ std::vector<FinePixel> fine_pixels(const Viewing& viewing, int y,
     const std::vector<char> thin = more_within(viewing, y, centres[y], outlined);
     std::vector<FinePixel> pixels;
     for (int x = 0; x < width; ++x)
-        if (outlined[x] || thin[x] || cornered(centres, x, y))
+        if (outlined[x] || thin[x] || cornered(viewing, centres, x, y))
             pixels.push_back({x, touches_light(centres, x, y) ? 8 : 4});
     return pixels;
 }
@@ -69,7 +82,7 @@ SeenRow refine_row(const Viewing& viewing, int y, const SeenRow& coarse,
         for (; from_coarse != coarse.pieces.end() && from_coarse->x < x; ++from_coarse) {
             row.pieces.push_back(*from_coarse);
             if (viewing.aov == Aov::radiance)
-                average_texture(viewing.rays.scene(), centres, y, row.pieces.back());
+                average_texture(viewing, centres, y, row.pieces.back());
         }
     };
     for (const FinePixel& pixel : pixels) {

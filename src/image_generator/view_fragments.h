@@ -78,9 +78,18 @@ void see_by_chance(const Viewing& viewing, std::span<const ChancePixel> pixels, 
 /// has pixels there, up to 64.
 Rgb mean_environment(const Viewing& viewing, int x, int y);
 
-/// Mean diffuse albedo over a pixel that shows one primitive alone, from the surface points that
-/// its own centre and those of two neighbours show, to the side and below or above.
-Rgb mean_diffuse_albedo(const Scene& scene, const SeenPiece& here, const SurfacePoint& beside,
-                        const SurfacePoint& below);
+/// How a place on a primitive, (u, v) of SurfacePoint, changes from a pixel to its neighbours.
+struct PixelFootprint {
+    Vec2 across;
+    Vec2 down;
+};
+/// The footprint of pixel (x, y), whose centre shows `point` straight, as if the primitive's plane
+/// went on; nothing where it is seen at so low an angle that the plane ends before the next pixel
+/// does, or where the primitive is less than a hundredth of the pixel.
+std::optional<PixelFootprint> footprint_on_plane(const Scene& scene, const View& view, int x, int y,
+                                                 const SurfacePoint& point);
+
+/// Mean diffuse albedo over a pixel whose surface goes on as the primitive that its centre shows.
+Rgb mean_diffuse_albedo(const Scene& scene, const SeenPiece& here, const PixelFootprint& footprint);
 
 }  // namespace chiaro

@@ -1,5 +1,6 @@
 // Textures finer than a pixel become their mean.
 #include "image_generator/looking.h"
+#include "scene/bisect_edges.h"
 
 #include <gtest/gtest.h>
 
@@ -65,6 +66,21 @@ TEST(TextureMean, ACoarseCheckerboardKeepsItsColours) {
                         left == top ? kPi * covered(map, 0, 0).g : 1 - kPi * covered(map, 0, 0).g,
                         1e-4f);
         }
+}
+
+// Of a wall in triangles smaller than a pixel each pixel shows at most one, and the mean of all
+// that it covers: the same picture as of the wall in one piece. The quad's halves differ by
+// rounding.
+TEST(TextureMean, SmallTrianglesAreAveragedOverAsOneWall) {
+    Looking whole(checkerboard(61.7f), 32, 32);
+    Scene scene = checkerboard(61.7f);
+    bisect_edges(scene, 0.2f);
+    Looking divided(std::move(scene), 32, 32);
+    const IdMap expected = whole.map(Aov::radiance), map = divided.map(Aov::radiance);
+    EXPECT_LE(map.fragments.size(), 32u * 32u);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x)
+            EXPECT_NEAR(kPi * covered(map, x, y).g, kPi * covered(expected, x, y).g, 1e-4f);
 }
 
 // Irradiance does not ask for the surface's colour.
