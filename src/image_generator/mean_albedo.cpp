@@ -7,7 +7,6 @@
 #include <cmath>
 
 namespace chiaro {
-
 namespace {
 
 // Primitives in a row within a pixel of which one cannot speak for the others.
