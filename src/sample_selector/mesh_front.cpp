@@ -1,5 +1,7 @@
 #include "sample_selector/mesh_front.h"
 
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -173,7 +175,7 @@ void MeshFront::mark_children(const ShadingCache& cache, std::size_t place, int 
 }
 
 std::size_t MeshFront::carry(ShadingCache& cache, std::span<const VertexId> news, int channel,
-                             const GainSettings& settings) {
+                             const GainSettings& settings, int threads) {
     std::size_t lowest = marked_.size();
     for (const VertexId id : news) {
         const std::size_t place = place_of(id);
@@ -182,17 +184,25 @@ std::size_t MeshFront::carry(ShadingCache& cache, std::span<const VertexId> news
         lowest = std::min(lowest, place / 64);
     }
     // Children come after their parents, so that one pass over the marks meets all.
-    std::size_t count = 0;
+    carried_.clear();
     for (std::size_t word = lowest; word < marked_.size(); ++word)
         while (marked_[word] != 0) {
             const std::size_t place =
                 64 * word + static_cast<std::size_t>(std::countr_zero(marked_[word]));
             marked_[word] &= marked_[word] - 1;
             if (cache.resolve(vertices_[place], channel)) mark_children(cache, place, channel);
-            gains_[channel].set(place, gain_at(cache, place, channel, settings));
-            ++count;
+            carried_.push_back(static_cast<std::uint32_t>(place));
         }
-    return count;
+
+    // What they gain depends on nothing but values.
+    carried_gains_.resize(carried_.size());
+    constexpr std::size_t kAtOnce = 1024;
+    parallel_for_ranges(threads, carried_.size(), kAtOnce, [&](IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i)
+            carried_gains_[i] = gain_at(cache, carried_[i], channel, settings);
+    });
+    gains_[channel].set(carried_, carried_gains_);
+    return carried_.size();
 }
 
 std::span<const PatchId> MeshFront::roots_round(VertexId vertex) const {
@@ -217,7 +227,8 @@ void MeshFront::rest(VertexId vertex, int channel) {
 std::size_t MeshFront::bytes() const {
     std::size_t total = vertices_.capacity() * sizeof(VertexId) + levels_.capacity() +
                         in_view_.capacity() + places_.capacity() * sizeof(std::uint32_t) +
-                        marked_.capacity() * sizeof(std::uint64_t);
+                        marked_.capacity() * sizeof(std::uint64_t) +
+                        4 * (carried_.capacity() + carried_gains_.capacity());
     total += 4 * (children_.first.capacity() + children_.entries.capacity() +
                   roots_.first.capacity() + roots_.entries.capacity());
     for (const auto& own : own_) total += own.capacity() * sizeof(float);

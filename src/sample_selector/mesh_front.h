@@ -46,9 +46,10 @@ public:
                                  int channel, const GainSettings& settings);
 
     /// Carries what is new at some vertices in a channel down to those that they speak for, and
-    /// reckons their gains anew. Returns how many these were; touches no others.
+    /// reckons their gains anew, on up to `threads` threads. Returns how many these were; touches
+    /// no others.
     std::size_t carry(ShadingCache& cache, std::span<const VertexId> news, int channel,
-                      const GainSettings& settings);
+                      const GainSettings& settings, int threads);
     /// The roots in view round a vertex.
     std::span<const PatchId> roots_round(VertexId vertex) const;
 
@@ -93,7 +94,9 @@ private:
     std::vector<std::uint32_t> places_;  // by VertexId up to the last: in vertices_, or kNowhere
     Lists<std::uint32_t> children_;      // places
     Lists<PatchId> roots_;
-    std::vector<std::uint64_t> marked_;  // a bit a place, for carry()
+    std::vector<std::uint64_t> marked_;   // a bit a place, for carry()
+    std::vector<std::uint32_t> carried_;  // places in order, for carry(),
+    std::vector<float> carried_gains_;    // and what they gain
     std::vector<std::uint8_t> levels_;
     std::vector<std::uint8_t> in_view_;           // bit: Shading
     std::array<std::vector<float>, 2> own_;       // by Shading: pixels of the patches round it

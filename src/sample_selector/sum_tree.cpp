@@ -49,29 +49,40 @@ void SumTree::resize(std::size_t count) {
             continue;
         }
         // A new top level: its sums are of weights that are there already.
-        std::vector<float> sums(below);
-        for (std::size_t i = 0; i < below; ++i)
-            sums[i] = level == 0 ? sum_of(weights_, i) : sum_of(sums_[level - 1], i);
-        sums_.push_back(std::move(sums));
+        sums_.emplace_back(below);
+        for (std::size_t i = 0; i < below; ++i) add_up(level, i);
     }
+}
+
+void SumTree::put(std::size_t i, float weight) {
+    check(weight >= 0 && std::isfinite(weight), "SumTree: weights are finite and not negative");
+    weights_[i] = weight;
+}
+
+void SumTree::add_up(std::size_t level, std::size_t parent) {
+    sums_[level][parent] = level == 0 ? sum_of(weights_, parent) : sum_of(sums_[level - 1], parent);
 }
 
 void SumTree::assign(std::span<const float> weights) {
     clear();
-    weights_.reserve(weights.size());
-    for (const float w : weights) {
-        check(w >= 0 && std::isfinite(w), "SumTree: weights are finite and not negative");
-        weights_.emplace_back(w);
-    }
+    weights_.resize(weights.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) put(i, weights[i]);
     resize(weights_.size());
 }
 
 void SumTree::set(std::size_t i, float weight) {
-    check(weight >= 0 && std::isfinite(weight), "SumTree: weights are finite and not negative");
-    weights_[i] = weight;
+    put(i, weight);
+    for (std::size_t level = 0; level < sums_.size(); ++level) add_up(level, i /= kFan);
+}
+
+void SumTree::set(std::span<const std::uint32_t> indices, std::span<const float> weights) {
+    for (std::size_t k = 0; k < indices.size(); ++k) put(indices[k], weights[k]);
+    std::size_t below = 1;  // weights under a sum of this level
     for (std::size_t level = 0; level < sums_.size(); ++level) {
-        i /= kFan;
-        sums_[level][i] = level == 0 ? sum_of(weights_, i) : sum_of(sums_[level - 1], i);
+        below *= kFan;
+        for (std::size_t k = 0; k < indices.size(); ++k)
+            if (k == 0 || indices[k] / below != indices[k - 1] / below)
+                add_up(level, indices[k] / below);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "base/bfloat16.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,8 @@ public:
 
     float weight(std::size_t i) const { return weights_[i]; }
     void set(std::size_t i, float weight);
+    /// Sets many at once, each sum being made once: weights[k] at indices[k], in ascending order.
+    void set(std::span<const std::uint32_t> indices, std::span<const float> weights);
     double total() const;
 
     /// The index at which the running sum of weights passes u * total(); u in [0, 1). Checks that
@@ -36,6 +39,8 @@ private:
     static constexpr std::size_t kFan = 16;
     template <typename Below>
     static float sum_of(const Below& below, std::size_t parent);
+    void put(std::size_t i, float weight);
+    void add_up(std::size_t level, std::size_t parent);
 
     std::vector<Bfloat16> weights_;
     std::vector<std::vector<float>> sums_;  // each entry of kFan below it; [0] of weights

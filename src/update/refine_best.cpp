@@ -16,7 +16,10 @@ constexpr float kChance = 0.03f;
 // Vertices of the cache for each point that is shaded between two looks at all that changed, and
 // those that values are carried to.
 constexpr std::size_t kVerticesAPoint = 5;
-constexpr std::size_t kVerticesCarriedAPoint = 64;
+constexpr std::size_t kVerticesCarriedAPoint = 32;
+
+// Patches whose gains one thread reckons at once.
+constexpr std::size_t kBlock = 1024;
 
 }  // namespace
 
@@ -51,12 +54,26 @@ void UpdateCycle::carry_down() {
     points_since_carry_ = 0;
     vertices_carried_ = 0;
     for (int c = 0; c < cache_.channels(); ++c) {
-        vertices_carried_ += mesh_front_.carry(cache_, news_[c], c, gains_);
-        for (const VertexId v : news_[c])
-            for (const PatchId root : mesh_front_.roots_round(v))
-                front_[c].set(index_of(root), front_gain(root, c));
+        vertices_carried_ += mesh_front_.carry(cache_, news_[c], c, gains_, settings_.threads);
+        reckon_roots_round(news_[c], c);
         news_[c].clear();
     }
+}
+
+void UpdateCycle::reckon_roots_round(std::span<const VertexId> vertices, int channel) {
+    std::vector<std::uint32_t> roots;
+    for (const VertexId v : vertices)
+        for (const PatchId root : mesh_front_.roots_round(v))
+            roots.push_back(static_cast<std::uint32_t>(index_of(root)));
+    std::sort(roots.begin(), roots.end());
+    roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
+
+    std::vector<float> gains(roots.size());
+    parallel_for_ranges(settings_.threads, roots.size(), kBlock, [&](IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i)
+            gains[i] = front_gain(static_cast<PatchId>(roots[i]), channel);
+    });
+    front_[channel].set(roots, gains);
 }
 
 double UpdateCycle::seconds_budget() const {
@@ -225,10 +242,8 @@ void UpdateCycle::refresh(Extent extent) {
 void UpdateCycle::reckon_front(int channel, Extent extent) {
     const SumTree& known = front_[channel];
     std::vector<float> gains(cache_.patches().size(), 0.0f);
-    constexpr std::size_t kBlock = 1024;
-    parallel_for(settings_.threads, (gains.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-        const std::size_t last = std::min(gains.size(), (block + 1) * kBlock);
-        for (std::size_t i = block * kBlock; i < last; ++i) {
+    parallel_for_ranges(settings_.threads, gains.size(), kBlock, [&](IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
             const auto id = static_cast<PatchId>(i);
             const bool as_before =
                 extent == Extent::what_changed && i < known.size() && !front_changed(id);

@@ -117,6 +117,7 @@ private:
     bool front_changed(PatchId patch) const;
     enum class Extent { what_changed, everything };
     void carry_down();
+    void reckon_roots_round(std::span<const VertexId> vertices, int channel);
     void refresh(Extent extent);
     void reckon_front(int channel, Extent extent);
     void estimate_exposure();

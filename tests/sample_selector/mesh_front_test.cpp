@@ -157,15 +157,15 @@ TEST(MeshFront, CarryingShowsWhatAFullPassWould) {
         if (batch == 5) f.cache.mark_buried(news[3]);
         ShadingCache full = f.cache;
         full.resolve();
-        const std::size_t carried = f.front.carry(f.cache, news, 0, settings());
+        const std::size_t carried = f.front.carry(f.cache, news, 0, settings(), 2);
         expect_same_shown(f.cache, full);
         EXPECT_LE(carried, f.not_evaluated(0).size() + 1);
         if (batch == 0) {
             EXPECT_EQ(carried, f.not_evaluated(0).size());  // all hang on them
         }
-        EXPECT_EQ(f.front.carry(f.cache, {}, 0, settings()), 0u);
+        EXPECT_EQ(f.front.carry(f.cache, {}, 0, settings(), 2), 0u);
         // A second look changes nothing: it ends at the children.
-        EXPECT_LE(f.front.carry(f.cache, news, 0, settings()), carried);
+        EXPECT_LE(f.front.carry(f.cache, news, 0, settings(), 2), carried);
         expect_same_shown(f.cache, full);
         news = f.some_of(f.not_evaluated(0), 40, rng);
     }
@@ -176,7 +176,7 @@ TEST(MeshFront, NothingIsCarriedWhereAllIsEvaluated) {
     f.front.reckon(f.cache, settings());
     f.store(all_vertices(f.cache), 0, [](VertexId) { return 8.0f; });
     for (const VertexId id : coarsest(f.cache)) f.cache.store(id, 0, Rgb(9), 0, 64, 1);
-    EXPECT_EQ(f.front.carry(f.cache, coarsest(f.cache), 0, settings()), 0u);
+    EXPECT_EQ(f.front.carry(f.cache, coarsest(f.cache), 0, settings(), 2), 0u);
 }
 
 // A vertex and another that has a parent in common with it, both not evaluated and in view.
@@ -203,7 +203,7 @@ TEST(MeshFront, AMissIsSuspectedOfItsSiblings) {
     Front f;
     f.store(coarsest(f.cache), 0, [](VertexId) { return 0.5f; });
     f.front.reckon(f.cache, settings());
-    f.front.carry(f.cache, coarsest(f.cache), 0, settings());
+    f.front.carry(f.cache, coarsest(f.cache), 0, settings(), 2);
     const auto [one, other, parent] = siblings(f.cache);
     const auto gain = [&](VertexId id) { return gain_of_first(f.cache, id, 0, 1, settings()); };
     const float surplus = f.cache.surplus(parent, 0), before = gain(other);
@@ -229,7 +229,7 @@ TEST(MeshFront, TheDrawLearnsOfAllThatACycleChanged) {
     std::vector<VertexId> news = coarsest(f.cache);
     for (int batch = 0; batch < 8; ++batch) {
         news = f.store(news, 0, [&](VertexId) { return 0.2f + 4 * rng.uniform(); });
-        f.front.carry(f.cache, news, 0, settings());
+        f.front.carry(f.cache, news, 0, settings(), 2);
         const double known = f.front.total(0);
         f.front.reckon(f.cache, settings());
         EXPECT_NEAR(known / f.front.total(0), 1, 0.05) << batch;

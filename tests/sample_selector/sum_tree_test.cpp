@@ -67,6 +67,35 @@ TEST(SumTree, SumsStayExactAfterManySets) {
     EXPECT_EQ(tree.total(), 3500);  // sums of small whole numbers are exact
 }
 
+// Many weights set at once leave the same tree as the same weights set one by one: the same draws,
+// the same total to the last bit.
+TEST(SumTree, SettingManyIsSettingEach) {
+    constexpr std::size_t kCount = 9000;  // four levels
+    SumTree one_by_one, at_once;
+    Rng rng(3);
+    std::vector<float> first(kCount);
+    for (float& w : first) w = rng.uniform();
+    one_by_one.assign(first);
+    at_once.assign(first);
+    for (const std::uint32_t every : {1u, 7u, 300u, 5000u}) {
+        std::vector<std::uint32_t> indices;
+        std::vector<float> weights;
+        for (std::uint32_t i = every / 2; i < kCount; i += every) {
+            indices.push_back(i);
+            weights.push_back(10 * rng.uniform());
+            one_by_one.set(i, weights.back());
+        }
+        at_once.set(indices, weights);
+        EXPECT_EQ(at_once.total(), one_by_one.total());
+        for (int k = 0; k < 200; ++k) {
+            const float u = rng.uniform();
+            EXPECT_EQ(at_once.draw(u), one_by_one.draw(u));
+        }
+    }
+    at_once.set({}, {});
+    EXPECT_EQ(at_once.total(), one_by_one.total());
+}
+
 // Growing keeps the weights that are there, across levels; new ones are zero.
 TEST(SumTree, ResizeKeepsWeights) {
     SumTree tree;
