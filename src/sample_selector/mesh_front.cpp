@@ -201,7 +201,7 @@ std::size_t MeshFront::carry(ShadingCache& cache, std::span<const VertexId> news
         for (std::size_t i = range.begin; i < range.end; ++i)
             carried_gains_[i] = gain_at(cache, carried_[i], channel, settings);
     });
-    gains_[channel].set(carried_, carried_gains_);
+    gains_[channel].set_many(carried_, carried_gains_);
     return carried_.size();
 }
 

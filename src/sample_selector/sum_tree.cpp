@@ -75,7 +75,7 @@ void SumTree::set(std::size_t i, float weight) {
     for (std::size_t level = 0; level < sums_.size(); ++level) add_up(level, i /= kFan);
 }
 
-void SumTree::set(std::span<const std::uint32_t> indices, std::span<const float> weights) {
+void SumTree::set_many(std::span<const std::uint32_t> indices, std::span<const float> weights) {
     for (std::size_t k = 0; k < indices.size(); ++k) put(indices[k], weights[k]);
     std::size_t below = 1;  // weights under a sum of this level
     for (std::size_t level = 0; level < sums_.size(); ++level) {

@@ -26,7 +26,7 @@ public:
     float weight(std::size_t i) const { return weights_[i]; }
     void set(std::size_t i, float weight);
     /// Sets many at once, each sum being made once: weights[k] at indices[k], in ascending order.
-    void set(std::span<const std::uint32_t> indices, std::span<const float> weights);
+    void set_many(std::span<const std::uint32_t> indices, std::span<const float> weights);
     double total() const;
 
     /// The index at which the running sum of weights passes u * total(); u in [0, 1). Checks that

@@ -73,7 +73,7 @@ void UpdateCycle::reckon_roots_round(std::span<const VertexId> vertices, int cha
         for (std::size_t i = range.begin; i < range.end; ++i)
             gains[i] = front_gain(static_cast<PatchId>(roots[i]), channel);
     });
-    front_[channel].set(roots, gains);
+    front_[channel].set_many(roots, gains);
 }
 
 double UpdateCycle::seconds_budget() const {

@@ -12,6 +12,10 @@
 namespace chiaro {
 namespace {
 
+// Light that is several dB off is seen before outlines are, whose rays take several times as long
+// as those of the first picture. So many times these go into light first.
+constexpr double kRefineBeforeOutlines = 3;
+
 // Whether the picture shows light that glossy surfaces' vertices are asked for.
 bool shows_cached_gloss(const UpdateSettings& settings, const Scene& scene) {
     if (settings.aov == Aov::irradiance) return false;
@@ -49,6 +53,10 @@ Channels count_channels(std::span<const ChannelPlan> plans) {
     for (const ChannelPlan& plan : plans)
         ++(plan.light == Light::glossy ? count.glossy : count.irradiance);
     return count;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 float cost(const SampleCosts& costs, Light light) {
@@ -102,11 +110,18 @@ void UpdateCycle::run() {
     switch (stage_) {
         case Stage::new_view:
             make_map(ViewQuality::one_ray);
+            seconds_of_map_ = seconds_since(start_time);
             restart_polish();
             start();
             stage_ = Stage::covered;
+            covered_at_ = std::chrono::steady_clock::now();
             break;
         case Stage::covered:
+            if (!settings_.fixed_size &&
+                seconds_since(covered_at_) < kRefineBeforeOutlines * seconds_of_map_) {
+                settings_.scheme == Scheme::paper ? refine_as_paper() : refine();
+                break;
+            }
             // The view rests: outlines and textures deserve more rays now.
             make_map(ViewQuality::antialiased);
             restart_polish();
@@ -119,8 +134,7 @@ void UpdateCycle::run() {
     }
     age();
     ++statistics_.cycles;
-    statistics_.seconds +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_time).count();
+    statistics_.seconds += seconds_since(start_time);
 }
 
 ShadeWork UpdateCycle::new_work() const {

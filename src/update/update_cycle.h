@@ -11,6 +11,7 @@
 #include "update/shade_work.h"
 #include "update/timings.h"
 
+#include <chrono>
 #include <optional>
 
 namespace chiaro {
@@ -136,6 +137,8 @@ private:
     bool environment_;  // there is one that shines
     std::optional<View> view_;
     enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
+    double seconds_of_map_ = 0;  // of a new view's first rays
+    std::chrono::steady_clock::time_point covered_at_;
 
     Rng rng_;
     GainSettings gains_;

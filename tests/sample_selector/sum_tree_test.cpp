@@ -85,14 +85,14 @@ TEST(SumTree, SettingManyIsSettingEach) {
             weights.push_back(10 * rng.uniform());
             one_by_one.set(i, weights.back());
         }
-        at_once.set(indices, weights);
+        at_once.set_many(indices, weights);
         EXPECT_EQ(at_once.total(), one_by_one.total());
         for (int k = 0; k < 200; ++k) {
             const float u = rng.uniform();
             EXPECT_EQ(at_once.draw(u), one_by_one.draw(u));
         }
     }
-    at_once.set({}, {});
+    at_once.set_many({}, {});
     EXPECT_EQ(at_once.total(), one_by_one.total());
 }
 
