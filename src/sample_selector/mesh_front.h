@@ -29,6 +29,8 @@ public:
     bool in_view(std::size_t place, Shading shading) const {
         return in_view_[place] >> static_cast<int>(shading) & 1;
     }
+    /// Whether a patch of the view has it for a corner.
+    bool seen(std::size_t place) const { return own_[0][place] > 0 || own_[1][place] > 0; }
     /// The coarsest level that it stands for.
     int level(std::size_t place) const { return levels_[place]; }
     static constexpr int kLevels = 16;

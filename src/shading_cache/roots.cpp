@@ -19,6 +19,10 @@ struct ShadingCache::MeshPlace {
     std::uint32_t side_of(std::uint32_t primitive) const {
         return 2 * (first_primitive + primitive) + back;
     }
+    Vec2 uv_of(MeshCorner corner) const {
+        const bool quad = mesh.primitives[corner.primitive].is_quad();
+        return pulled_in(quad, node_place(quad, static_cast<Node>(corner.corner)));
+    }
 };
 
 ShadingCache::MeshPlace ShadingCache::mesh_place(std::uint32_t surface_side) const {
@@ -43,6 +47,8 @@ PatchId ShadingCache::root(ObjectId object, std::uint32_t primitive, bool front)
         const MeshCorner corner = {primitive, c};
         const std::uint32_t vertex = place.graph.vertex_of_corner[corner_index(place.mesh, corner)];
         patch.corners[c] = mesh_vertex(place, static_cast<MeshVertexId>(vertex), corner);
+        if (mesh_roles_[index_of(patch.corners[c])].stands_in)
+            sample_itself(place, patch.corners[c], corner);
     }
     roots_[side] = static_cast<PatchId>(patches_.size());
     append(patches_, patch, kAtOnce);
@@ -59,8 +65,7 @@ VertexId ShadingCache::mesh_vertex(const MeshPlace& place, MeshVertexId vertex,
     CacheVertex made;
     made.of_mesh = 1;
     made.surface_side = place.side_of(sampled_at.primitive) & 0xfff'ffffU;
-    const bool quad = place.mesh.primitives[sampled_at.primitive].is_quad();
-    made.uv = pulled_in(quad, node_place(quad, static_cast<Node>(sampled_at.corner)));
+    made.uv = place.uv_of(sampled_at);
     const auto parents = place.graph.parents_of(vertex);
     const auto weights = place.graph.weights_of(vertex);
     for (std::size_t i = 0; i < parents.size(); ++i) {
@@ -69,24 +74,29 @@ VertexId ShadingCache::mesh_vertex(const MeshPlace& place, MeshVertexId vertex,
         made.weights[i] = weights[i];
     }
     id = add_vertex(made);
+    mesh_roles_[index_of(id)].level = place.graph.level[index_of(vertex)] & 0x7f;
     return id;
 }
 
-int ShadingCache::level(VertexId id) const {
-    const CacheVertex& v = vertex(id);
-    if (!v.of_mesh) return 0;
-    const MeshPlace place = mesh_place(v.surface_side);
-    const std::uint32_t primitive = v.surface_side / 2 - place.first_primitive;
-    const Primitive& p = place.mesh.primitives[primitive];
-    // It was sampled near the corner that it is.
-    int nearest = 0;
-    const auto distance = [&](int c) {
-        return glm::length(v.uv - node_place(p.is_quad(), static_cast<Node>(c)));
-    };
-    for (int c = 1; c < p.corner_count(); ++c)
-        if (distance(c) < distance(nearest)) nearest = c;
-    const std::uint32_t corner = corner_index(place.mesh, {primitive, nearest});
-    return place.graph.level[place.graph.vertex_of_corner[corner]];
+void ShadingCache::stand_in(VertexId hidden, VertexId in_view) {
+    check(vertex(hidden).of_mesh && vertex(in_view).of_mesh, "stand_in: vertices of meshes");
+    for (int c = 0; c < channels(); ++c)
+        check(!evaluated(hidden, c), "stand_in: the vertex has been sampled elsewhere");
+    CacheVertex& v = vertices_[index_of(hidden)];
+    v.surface_side = vertex(in_view).surface_side;
+    v.uv = vertex(in_view).uv;
+    mesh_roles_[index_of(hidden)].stands_in = 1;
+}
+
+// A vertex that stood for others elsewhere has come into view.
+void ShadingCache::sample_itself(const MeshPlace& place, VertexId id, MeshCorner sampled_at) {
+    CacheVertex& v = vertices_[index_of(id)];
+    v.surface_side = place.side_of(sampled_at.primitive) & 0xfff'ffffU;
+    v.uv = place.uv_of(sampled_at);
+    v.buried = v.exposed = 0;
+    mesh_roles_[index_of(id)].stands_in = 0;
+    for (auto& slots : slots_) slots[index_of(id)] = kNoSlot;
+    resolve_vertex(id);
 }
 
 }  // namespace chiaro

@@ -132,6 +132,7 @@ VertexId ShadingCache::add_vertex(const CacheVertex& vertex) {
     const std::size_t part = vertex.of_mesh ? kAtOnce : 32;
     append(vertices_, vertex, part);
     append(changed_, std::uint8_t{0}, part);
+    append(mesh_roles_, MeshRole{}, part);
     const auto made = static_cast<VertexId>(vertices_.size() - 1);
     for (int c = 0; c < channels(); ++c) {
         append(slots_[c], kNoSlot, part);
@@ -189,8 +190,8 @@ std::size_t ShadingCache::bytes() const {
         return array.capacity() * sizeof(typename std::decay_t<decltype(array)>::value_type);
     };
     std::size_t total = held(roots_) + held(first_primitive_) + held(patches_) + held(vertices_) +
-                        held(first_mesh_vertex_) + held(mesh_vertices_) + held(changed_) +
-                        edges_.bytes();
+                        held(first_mesh_vertex_) + held(mesh_vertices_) + held(mesh_roles_) +
+                        held(changed_) + edges_.bytes();
     for (int c = 0; c < channels(); ++c)
         total += held(slots_[c]) + held(estimates_[c]) + held(shown_[c]);
     return total;

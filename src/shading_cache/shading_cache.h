@@ -86,7 +86,12 @@ public:
     /// Mean luminance of the base colour there, 255 is 1.
     std::uint8_t reflectance(VertexId vertex) const;
     /// The coarsest level that a vertex of the mesh stands for (MeshGraph); 0 for all others.
-    int level(VertexId vertex) const;
+    int level(VertexId vertex) const { return mesh_roles_[index_of(vertex)].level; }
+    /// Samples a vertex of a mesh, which is hidden, where another is that it speaks for and that is
+    /// in view: what hides it may keep its light away. It is sampled at its own place again, and
+    /// what is known of it forgotten, once a root is asked for of which it is a corner. Checks: of
+    /// meshes, and not evaluated in any channel.
+    void stand_in(VertexId hidden, VertexId in_view);
 
     /// Estimate of a channel at a vertex, if it was evaluated there.
     const Estimate* estimate(VertexId vertex, int channel) const;
@@ -148,8 +153,14 @@ public:
 
 private:
     struct MeshPlace;
+    // What is kept besides of vertices of meshes.
+    struct MeshRole {
+        std::uint8_t level : 7 = 0;
+        std::uint8_t stands_in : 1 = 0;  // stand_in()
+    };
     MeshPlace mesh_place(std::uint32_t surface_side) const;
     VertexId mesh_vertex(const MeshPlace& place, MeshVertexId vertex, MeshCorner sampled_at);
+    void sample_itself(const MeshPlace& place, VertexId vertex, MeshCorner sampled_at);
     VertexId edge_midpoint(PatchId patch, Node node);
     VertexId node_vertex(PatchId patch, Node node);
     VertexId add_vertex(PatchId patch, Vec2 local, std::span<const VertexId> parents);
@@ -178,6 +189,7 @@ private:
     std::vector<VertexId> mesh_vertices_;  // 2 x vertex + (back ? 1 : 0); none until first needed
     std::vector<Patch> patches_;
     std::vector<CacheVertex> vertices_;
+    std::vector<MeshRole> mesh_roles_;  // by vertex
     EdgeTable edges_;
 
     static constexpr std::uint32_t kNoSlot = 0xffff'ffff;

@@ -1,5 +1,6 @@
 // The first cycles of a view: a whole picture, as good as its seconds can pay.
 
+#include "sample_selector/stand_ins.h"
 #include "update/start_level.h"
 #include "update/update_cycle.h"
 
@@ -26,6 +27,7 @@ void UpdateCycle::start() {
     {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
         mesh_front_.attach(cache_);
+        sample_hidden_in_view(cache_, mesh_front_);
     }
     if (settings_.scheme == Scheme::best && !settings_.fixed_size && cost_learning_ == 0)
         measure_costs();

@@ -86,6 +86,37 @@ TEST(MeshVertices, BackSidesHaveVerticesOfTheirOwnWithTheSameParents) {
     expect_the_meshs_parents(dense);
 }
 
+// A vertex that nobody sees is sampled where another is, and as itself again once it is a corner in
+// view: what was known of the other place is forgotten.
+TEST(MeshVertices, AVertexStandsInUntilItIsSeenItself) {
+    DenseGrid dense(32, 32, 2);
+    ShadingCache& cache = dense.cache;
+    const VertexId seen = cache.patch(cache.root(ObjectId{0}, 777, true)).corners[0];
+    const VertexId hidden = coarsest(cache).front();
+    ASSERT_NE(hidden, seen);
+    const SurfacePoint own = cache.surface_point(hidden);
+    const std::uint32_t in_the_mesh = in_mesh(dense, hidden);
+    const int level = cache.level(hidden);
+    cache.stand_in(hidden, seen);
+    EXPECT_EQ(cache.surface_point(hidden).primitive, cache.surface_point(seen).primitive);
+    EXPECT_EQ(cache.surface_point(hidden).u, cache.surface_point(seen).u);
+    EXPECT_EQ(cache.level(hidden), level);  // it speaks for the same as before
+    cache.store(hidden, 0, Rgb(8), 0, 64, 1);
+    cache.store(hidden, 1, Rgb(2), 0, 64, 1);
+    cache.mark_buried(hidden);
+    cache.root(ObjectId{0}, 777, true);  // known already, and none of its corners
+    EXPECT_TRUE(cache.evaluated(hidden, 0));
+
+    cache.root(ObjectId{0}, own.primitive, true);
+    EXPECT_EQ(in_mesh(dense, hidden), in_the_mesh);
+    for (const int channel : {0, 1}) EXPECT_FALSE(cache.evaluated(hidden, channel));
+    EXPECT_FALSE(cache.vertex(hidden).buried);
+    EXPECT_TRUE(cache.vertex(hidden).hollow);  // none is above it
+    cache.resolve();
+    EXPECT_EQ(luminance(cache.shown(seen, 0).value), 0);
+    expect_consistent(cache);
+}
+
 // Weights add up to one on every level.
 TEST(MeshVertices, AConstantOnTheCoarsestLevelIsOneEverywhere) {
     DenseGrid dense(32, 32, 2);

@@ -264,8 +264,9 @@ void expect_thin_things_lit(bool from_above) {
             }
         EXPECT_GT(from_above ? lit : turned_away, 3000);
         EXPECT_GT(lit, 100);
-        EXPECT_LT(sum / lit, 0.005);
-        EXPECT_LT(worst, 0.05);
+        // At first, what is hidden is sampled beside its place, where light falls off steeply.
+        EXPECT_LT(sum / lit, cycles == 1 ? 0.02 : 0.005);
+        EXPECT_LT(worst, cycles == 1 ? 0.5 : 0.05);
     }
 }
 TEST(Dense, ThinThingsAreLitOnTopOnly) {
@@ -316,6 +317,31 @@ TEST(Dense, BuriedVerticesLeaveNoBlackPlaces) {
         EXPECT_EQ(dark, 0) << "of " << lux.size();
         EXPECT_LT(relative_error(on_floor, lux), 0.07);
     }
+}
+
+// A cupboard of 1.6 m stands a centimetre in front of a wall, where it is as good as dark. Vertices
+// there that speak for the wall round the cupboard are none of those that are buried.
+TEST(Dense, WhatFurnitureHidesDarkensNothingBesideIt) {
+    Scene scene = dense(room(), 0.05f);
+    const MaterialId grey = add_material(scene, Rgb(0.4f));
+    add_box(scene, {1.2f, 3.5f, 0.01f}, {2.8f, 3.99f, 1.6f}, grey);
+    Studio studio(std::move(scene), fixed_size(Scheme::best));
+    studio.cycle.look_from(
+        {{.eye = {2, 0.3f, 1.5f}, .target = {2, 4, 1.5f}, .up = {0, 0, 1}, .vertical_fov = 70},
+         160,
+         120});
+    studio.run(1);
+    auto on_wall = spots(studio, 7);
+    std::erase_if(on_wall, [](const Spot& s) {
+        return s.where.object != ObjectId{0} || s.position.y < 3.999f || s.position.z < 0.5f;
+    });
+    ASSERT_GT(on_wall.size(), 500u);
+    const auto lux = traced_lux(studio, on_wall, 256);
+    int dark = 0;
+    for (std::size_t i = 0; i < lux.size(); ++i) dark += on_wall[i].lux < 0.7 * lux[i] ? 1 : 0;
+    EXPECT_EQ(dark, 0) << "of " << lux.size();
+    RecordProperty("error", std::to_string(relative_error(on_wall, lux)));
+    EXPECT_LT(relative_error(on_wall, lux), 0.07);
 }
 
 }  // namespace
