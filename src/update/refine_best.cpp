@@ -16,7 +16,7 @@ constexpr float kChance = 0.03f;
 // Vertices of the cache for each point that is shaded between two looks at all that changed, and
 // those that values are carried to.
 constexpr std::size_t kVerticesAPoint = 5;
-constexpr std::size_t kVerticesCarriedAPoint = 32;
+constexpr std::size_t kVerticesCarriedAPoint = 24;
 
 // Patches whose gains one thread reckons at once.
 constexpr std::size_t kBlock = 1024;
