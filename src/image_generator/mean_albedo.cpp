@@ -10,7 +10,7 @@ namespace chiaro {
 namespace {
 
 // Primitives in a row within a pixel of which one cannot speak for the others.
-constexpr float kMostPrimitives = 100;
+constexpr float kMostInPixel = 100;
 
 // What (u, v) change by along two edges of the half of a primitive that a point lies on, in world
 // space.
@@ -55,7 +55,7 @@ std::optional<PixelFootprint> footprint_on_plane(const Scene& scene, const View&
     if (!across || !down) return std::nullopt;
     const float largest =
         std::max({std::abs(across->x), std::abs(across->y), std::abs(down->x), std::abs(down->y)});
-    if (!(largest < kMostPrimitives)) return std::nullopt;
+    if (!(largest < kMostInPixel)) return std::nullopt;
     return PixelFootprint{*across, *down};
 }
 

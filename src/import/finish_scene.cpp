@@ -84,6 +84,16 @@ void drop_unused_meshes(Scene& scene) {
     scene.meshes = std::move(kept);
 }
 
+void check_count(const Scene& scene, const std::string& where) {
+    std::size_t count = 0;
+    for (const Object& object : scene.objects) count += scene.mesh_of(object).primitives.size();
+    if (count > kMostPrimitives)
+        throw Error(where,
+                    fmt::format("{} polygons, counted where they are shown, are more than {}",
+                                count, kMostPrimitives),
+                    "leave out objects or repetitions");
+}
+
 void check_extent(Scene& scene, const std::string& where) {
     const auto check_inside = [&](const char* kind, const std::string& name, Vec3 p) {
         if (!within_reach(p))
@@ -141,6 +151,7 @@ void finish_scene(Scene& scene, const LoadOptions& options, const std::string& w
     scale_lengths(scene, options.scale);
     drop_empty_objects(scene, where);
     drop_unused_meshes(scene);
+    check_count(scene, where);
     check_extent(scene, where);
     check_brightness(scene, where);
     check_scene(scene);

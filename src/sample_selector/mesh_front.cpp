@@ -133,6 +133,14 @@ std::vector<VertexId> MeshFront::settle(ShadingCache& cache, std::span<const Ver
     return suspects;
 }
 
+void MeshFront::unsettle(const ShadingCache& cache, VertexId forgotten, int channel,
+                         const GainSettings& settings) {
+    const std::size_t place = place_of(forgotten);
+    if (place == kNowhere) return;
+    lift(cache, forgotten, channel, -pixels(cache, place, channel));
+    reckon(cache, forgotten, channel, settings);
+}
+
 // Lays a miss to those that spoke for a vertex, and to those farther above it by their part in
 // that.
 void MeshFront::blame(ShadingCache& cache, VertexId vertex, int channel, float surplus,

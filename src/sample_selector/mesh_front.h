@@ -29,8 +29,8 @@ public:
     bool in_view(std::size_t place, Shading shading) const {
         return in_view_[place] >> static_cast<int>(shading) & 1;
     }
-    /// Whether a patch of the view has it for a corner.
-    bool seen(std::size_t place) const { return own_[0][place] > 0 || own_[1][place] > 0; }
+    /// Whether it is a corner of a patch whose light shows in the view.
+    bool shown(std::size_t place) const { return own_[0][place] > 0 || own_[1][place] > 0; }
     /// The coarsest level that it stands for.
     int level(std::size_t place) const { return levels_[place]; }
     static constexpr int kLevels = 16;
@@ -46,6 +46,11 @@ public:
     /// they speak for gains by it.
     std::vector<VertexId> settle(ShadingCache& cache, std::span<const VertexId> evaluated,
                                  int channel, const GainSettings& settings);
+
+    /// A vertex that was evaluated in a channel no longer is: what it weighs falls back on those
+    /// that speak for it now.
+    void unsettle(const ShadingCache& cache, VertexId forgotten, int channel,
+                  const GainSettings& settings);
 
     /// Carries what is new at some vertices in a channel down to those that they speak for, and
     /// reckons their gains anew, on up to `threads` threads. Returns how many these were; touches

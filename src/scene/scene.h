@@ -9,6 +9,7 @@
 #include "scene/material.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -44,6 +45,9 @@ struct Object {
     MeshId mesh = MeshId::none;
     Mat4 to_world = Mat4(1);  // affine, finite, not singular
 };
+
+/// Primitives of all objects together, each counted where it is shown.
+inline constexpr std::size_t kMostPrimitives = std::size_t{1} << 27;
 
 struct Scene {
     std::vector<Mesh> meshes;

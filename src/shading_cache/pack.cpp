@@ -73,7 +73,7 @@ void ShadingCache::pack() {
     pack_channels(vertex_kept);
     keep_only(patches_, patch_kept);
     keep_only(vertices_, vertex_kept);
-    keep_only(mesh_roles_, vertex_kept);
+    keep_only(notes_, vertex_kept);
     keep_only(changed_, vertex_kept);
     first_changed_ = 0;
     edges_.clear();

@@ -61,17 +61,21 @@ struct Patch {
 /// array than their children, so that one pass in order carries values from coarse to fine.
 struct CacheVertex {
     static constexpr int kFullWeight = 128;  // weights are multiples of 1/128
+    static constexpr int kSideBits = 28;
 
     std::array<VertexId, 4> parents = {VertexId::none, VertexId::none, VertexId::none,
                                        VertexId::none};
     std::array<std::uint8_t, 4> weights = {0, 0, 0, 0};
-    std::uint32_t surface_side : 28 = 0;  // of the root on which it is sampled
-    std::uint32_t of_mesh : 1 = 0;        // a corner of the mesh, not made by dividing patches
-    std::uint32_t exposed : 1 = 0;        // it was seen not to be buried, whatever rays met
+    std::uint32_t surface_side : kSideBits = 0;  // of the root on which it is sampled
+    std::uint32_t of_mesh : 1 = 0;  // a corner of the mesh, not made by dividing patches
+    std::uint32_t exposed : 1 = 0;  // it was seen not to be buried, whatever rays met
     std::uint32_t buried : 1 = 0;  // most rays from it met the inside of a solid: it knows no light
     std::uint32_t hollow : 1 = 0;  // no parent does either: it leaves the interpolation
     Vec2 uv = Vec2(0);  // where it is sampled: pulled in from the patch's border by 0.2 %
 
+    void set_surface_side(std::uint32_t side) {
+        surface_side = side & ((std::uint32_t{1} << kSideBits) - 1);
+    }
     /// Those of `parents` that there are.
     std::span<const VertexId> known_parents() const {
         std::size_t count = 0;

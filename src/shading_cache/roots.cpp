@@ -7,6 +7,7 @@
 namespace chiaro {
 
 static_assert(MeshGraph::kFullWeight == CacheVertex::kFullWeight);  // weights are taken as they are
+static_assert(2 * kMostPrimitives <= std::size_t{1} << CacheVertex::kSideBits);
 
 /// One side of a mesh in its place in the scene, with what its ids are counted from.
 struct ShadingCache::MeshPlace {
@@ -46,9 +47,13 @@ PatchId ShadingCache::root(ObjectId object, std::uint32_t primitive, bool front)
     for (int c = 0; c < p.corner_count(); ++c) {
         const MeshCorner corner = {primitive, c};
         const std::uint32_t vertex = place.graph.vertex_of_corner[corner_index(place.mesh, corner)];
-        patch.corners[c] = mesh_vertex(place, static_cast<MeshVertexId>(vertex), corner);
-        if (mesh_roles_[index_of(patch.corners[c])].stands_in)
-            sample_itself(place, patch.corners[c], corner);
+        const VertexId id = mesh_vertex(place, static_cast<MeshVertexId>(vertex), corner);
+        if (relocated(id)) {
+            forget(id);
+            put(id, side, place.uv_of(corner));
+        }
+        notes_[index_of(id)].of_root = 1;
+        patch.corners[c] = id;
     }
     roots_[side] = static_cast<PatchId>(patches_.size());
     append(patches_, patch, kAtOnce);
@@ -64,7 +69,7 @@ VertexId ShadingCache::mesh_vertex(const MeshPlace& place, MeshVertexId vertex,
 
     CacheVertex made;
     made.of_mesh = 1;
-    made.surface_side = place.side_of(sampled_at.primitive) & 0xfff'ffffU;
+    made.set_surface_side(place.side_of(sampled_at.primitive));
     made.uv = place.uv_of(sampled_at);
     const auto parents = place.graph.parents_of(vertex);
     const auto weights = place.graph.weights_of(vertex);
@@ -74,28 +79,32 @@ VertexId ShadingCache::mesh_vertex(const MeshPlace& place, MeshVertexId vertex,
         made.weights[i] = weights[i];
     }
     id = add_vertex(made);
-    mesh_roles_[index_of(id)].level = place.graph.level[index_of(vertex)] & 0x7f;
+    notes_[index_of(id)].level = place.graph.level[index_of(vertex)] & 0x3f;
     return id;
 }
 
-void ShadingCache::stand_in(VertexId hidden, VertexId in_view) {
-    check(vertex(hidden).of_mesh && vertex(in_view).of_mesh, "stand_in: vertices of meshes");
-    for (int c = 0; c < channels(); ++c)
-        check(!evaluated(hidden, c), "stand_in: the vertex has been sampled elsewhere");
-    CacheVertex& v = vertices_[index_of(hidden)];
-    v.surface_side = vertex(in_view).surface_side;
-    v.uv = vertex(in_view).uv;
-    mesh_roles_[index_of(hidden)].stands_in = 1;
+void ShadingCache::relocate(VertexId hidden, VertexId in_view) {
+    check(vertex(hidden).of_mesh && !of_root(hidden), "relocate: the vertex may be in view");
+    check(!evaluated(hidden), "relocate: the vertex is evaluated where it is");
+    put(hidden, vertex(in_view).surface_side, vertex(in_view).uv);
+    notes_[index_of(hidden)].relocated = 1;
 }
 
-// A vertex that stood for others elsewhere has come into view.
-void ShadingCache::sample_itself(const MeshPlace& place, VertexId id, MeshCorner sampled_at) {
+void ShadingCache::forget(VertexId id) {
+    for (int c = 0; c < channels(); ++c) {
+        std::uint32_t& slot = slots_[c][index_of(id)];
+        if (slot != kNoSlot) forgotten_.emplace_back(id, c);
+        slot = kNoSlot;
+    }
+}
+
+// What was found of the place where it was sampled before no longer counts.
+void ShadingCache::put(VertexId id, std::uint32_t surface_side, Vec2 uv) {
     CacheVertex& v = vertices_[index_of(id)];
-    v.surface_side = place.side_of(sampled_at.primitive) & 0xfff'ffffU;
-    v.uv = place.uv_of(sampled_at);
+    v.set_surface_side(surface_side);
+    v.uv = uv;
     v.buried = v.exposed = 0;
-    mesh_roles_[index_of(id)].stands_in = 0;
-    for (auto& slots : slots_) slots[index_of(id)] = kNoSlot;
+    notes_[index_of(id)].relocated = 0;
     resolve_vertex(id);
 }
 

@@ -27,8 +27,7 @@ ShadingCache::ShadingCache(const Scene& scene, const MeshGraphs& graphs, Channel
         primitives += scene.mesh_of(object).primitives.size();
         vertices += graphs.of(object.mesh).vertex_count();
     }
-    check(2 * std::max(primitives, vertices) <= std::size_t{1} << 28,
-          "ShadingCache: more primitives than ids");
+    check(primitives <= kMostPrimitives, "ShadingCache: more primitives than ids");
     for (const Material& material : scene.materials) {
         const float y = std::clamp(luminance(mean_reflectance(scene, material)), 0.0f, 1.0f);
         reflectances_.push_back(static_cast<std::uint8_t>(std::lround(255 * y)));
@@ -119,7 +118,7 @@ VertexId ShadingCache::edge_midpoint(PatchId id, Node node) {
 // evaluated.
 VertexId ShadingCache::add_vertex(PatchId id, Vec2 local, std::span<const VertexId> parents) {
     CacheVertex vertex;
-    vertex.surface_side = surface_side(id) & 0xfff'ffffU;
+    vertex.set_surface_side(surface_side(id));
     vertex.uv = surface_uv(id, pulled_in(patch(id).is_quad(), local));
     for (std::size_t i = 0; i < parents.size(); ++i) {
         vertex.parents[i] = parents[i];
@@ -132,7 +131,7 @@ VertexId ShadingCache::add_vertex(const CacheVertex& vertex) {
     const std::size_t part = vertex.of_mesh ? kAtOnce : 32;
     append(vertices_, vertex, part);
     append(changed_, std::uint8_t{0}, part);
-    append(mesh_roles_, MeshRole{}, part);
+    append(notes_, Notes{}, part);
     const auto made = static_cast<VertexId>(vertices_.size() - 1);
     for (int c = 0; c < channels(); ++c) {
         append(slots_[c], kNoSlot, part);
@@ -185,12 +184,18 @@ const Estimate* ShadingCache::estimate(VertexId vertex, int channel) const {
     return slot == kNoSlot ? nullptr : &estimates_[channel][slot];
 }
 
+bool ShadingCache::evaluated(VertexId vertex) const {
+    for (int c = 0; c < channels(); ++c)
+        if (evaluated(vertex, c)) return true;
+    return false;
+}
+
 std::size_t ShadingCache::bytes() const {
     const auto held = [](const auto& array) {
         return array.capacity() * sizeof(typename std::decay_t<decltype(array)>::value_type);
     };
     std::size_t total = held(roots_) + held(first_primitive_) + held(patches_) + held(vertices_) +
-                        held(first_mesh_vertex_) + held(mesh_vertices_) + held(mesh_roles_) +
+                        held(first_mesh_vertex_) + held(mesh_vertices_) + held(notes_) +
                         held(changed_) + edges_.bytes();
     for (int c = 0; c < channels(); ++c)
         total += held(slots_[c]) + held(estimates_[c]) + held(shown_[c]);

@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace chiaro {
@@ -86,16 +87,22 @@ public:
     /// Mean luminance of the base colour there, 255 is 1.
     std::uint8_t reflectance(VertexId vertex) const;
     /// The coarsest level that a vertex of the mesh stands for (MeshGraph); 0 for all others.
-    int level(VertexId vertex) const { return mesh_roles_[index_of(vertex)].level; }
-    /// Samples a vertex of a mesh, which is hidden, where another is that it speaks for and that is
-    /// in view: what hides it may keep its light away. It is sampled at its own place again, and
-    /// what is known of it forgotten, once a root is asked for of which it is a corner. Checks: of
-    /// meshes, and not evaluated in any channel.
-    void stand_in(VertexId hidden, VertexId in_view);
+    int level(VertexId vertex) const { return notes_[index_of(vertex)].level; }
+    /// Samples a vertex of a mesh, which is hidden, where another is that is in view: what hides it
+    /// may keep its light away. Once it is a corner of a root it is sampled where it is, for good.
+    /// Checks: not a corner of a root, not evaluated.
+    void relocate(VertexId hidden, VertexId in_view);
+    bool of_root(VertexId vertex) const { return notes_[index_of(vertex)].of_root; }
+    bool relocated(VertexId vertex) const { return notes_[index_of(vertex)].relocated; }
+    /// What root() has forgotten since this was asked last: relocated vertices were evaluated, and
+    /// are no longer.
+    std::vector<std::pair<VertexId, int>> take_forgotten() { return std::exchange(forgotten_, {}); }
 
     /// Estimate of a channel at a vertex, if it was evaluated there.
     const Estimate* estimate(VertexId vertex, int channel) const;
     bool evaluated(VertexId vertex, int channel) const { return estimate(vertex, channel); }
+    /// In any channel.
+    bool evaluated(VertexId vertex) const;
 
     /// By how much the vertex's estimate missed its prediction (luminance); where there was none, a
     /// part of all light there. Checks: evaluated.
@@ -153,14 +160,15 @@ public:
 
 private:
     struct MeshPlace;
-    // What is kept besides of vertices of meshes.
-    struct MeshRole {
-        std::uint8_t level : 7 = 0;
-        std::uint8_t stands_in : 1 = 0;  // stand_in()
+    struct Notes {  // on a vertex
+        std::uint8_t level : 6 = 0;
+        std::uint8_t of_root : 1 = 0;
+        std::uint8_t relocated : 1 = 0;
     };
     MeshPlace mesh_place(std::uint32_t surface_side) const;
     VertexId mesh_vertex(const MeshPlace& place, MeshVertexId vertex, MeshCorner sampled_at);
-    void sample_itself(const MeshPlace& place, VertexId vertex, MeshCorner sampled_at);
+    void put(VertexId vertex, std::uint32_t surface_side, Vec2 uv);
+    void forget(VertexId vertex);
     VertexId edge_midpoint(PatchId patch, Node node);
     VertexId node_vertex(PatchId patch, Node node);
     VertexId add_vertex(PatchId patch, Vec2 local, std::span<const VertexId> parents);
@@ -189,7 +197,7 @@ private:
     std::vector<VertexId> mesh_vertices_;  // 2 x vertex + (back ? 1 : 0); none until first needed
     std::vector<Patch> patches_;
     std::vector<CacheVertex> vertices_;
-    std::vector<MeshRole> mesh_roles_;  // by vertex
+    std::vector<Notes> notes_;  // by vertex
     EdgeTable edges_;
 
     static constexpr std::uint32_t kNoSlot = 0xffff'ffff;
@@ -197,6 +205,8 @@ private:
     std::vector<std::vector<Estimate>> estimates_;   // a channel: only what was evaluated
     std::vector<std::vector<std::uint32_t>> shown_;  // a channel: RGB9E5 by vertex, in shown_unit_
     float shown_unit_ = 0x1p-60f;  // a power of two; raised when something brighter comes
+
+    std::vector<std::pair<VertexId, int>> forgotten_;  // take_forgotten()
 
     static constexpr std::size_t kNothing = ~std::size_t{0};
     static constexpr std::uint8_t kAllChannels = 0xff;

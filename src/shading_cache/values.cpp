@@ -183,8 +183,7 @@ void ShadingCache::note_change(VertexId id, int channel) {
 
 void ShadingCache::resolve_hollow(VertexId id) {
     CacheVertex& v = vertices_[index_of(id)];
-    bool knows = false;
-    for (int c = 0; c < channels() && !v.buried; ++c) knows |= evaluated(id, c);
+    bool knows = !v.buried && evaluated(id);
     for (const VertexId parent : v.known_parents()) knows |= !vertex(parent).hollow;
     if (v.hollow == (knows ? 0 : 1)) return;
     v.hollow = knows ? 0 : 1;

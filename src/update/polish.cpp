@@ -102,6 +102,10 @@ double UpdateCycle::polish_pixels(std::size_t count) {
         const StepTimer timer(statistics_.timings, Step::sample_selection);
         const auto pixels = std::span(map_.chance_pixels).subspan(polish_.next(), count);
         seen = look_again(cache_, *rays_, *view_, view_settings(), pixels, polish_.pass());
+        for (const auto& [vertex, channel] : cache_.take_forgotten()) {
+            mesh_front_.unsettle(cache_, vertex, channel, gains_);
+            news_[channel].push_back(vertex);
+        }
         for (Fragment& f : seen.fragments) hand_to_leaf(cache_, f);
         light_surfaces(seen.fragments, work);
     }

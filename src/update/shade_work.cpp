@@ -9,9 +9,13 @@
 namespace chiaro {
 namespace {
 
-// A vertex is its place: made again there, it draws the same numbers.
-std::uint32_t vertex_seed(const CacheVertex& vertex, int channel, std::uint64_t session_seed) {
+// A vertex is its place: made again there, it draws the same numbers. Those that share a place with
+// what they speak for draw others.
+std::uint32_t vertex_seed(const ShadingCache& cache, VertexId id, int channel,
+                          std::uint64_t session_seed) {
+    const CacheVertex& vertex = cache.vertex(id);
     std::uint32_t h = hash32(hash64(session_seed), vertex.surface_side);
+    if (cache.relocated(id)) h = hash32(h, static_cast<std::uint32_t>(1 + cache.level(id)));
     h = hash32(h, std::bit_cast<std::uint32_t>(vertex.uv.x));
     h = hash32(h, std::bit_cast<std::uint32_t>(vertex.uv.y));
     return hash32(h, static_cast<std::uint32_t>(channel));
@@ -49,7 +53,7 @@ bool ShadeWork::add(const ShadingCache& cache, VertexId vertex, int channel, std
     request.front = cache.on_front(vertex);
     request.light = c.plan.light;
     request.eye = eye_;
-    request.seed = vertex_seed(cache.vertex(vertex), channel, seed_);
+    request.seed = vertex_seed(cache, vertex, channel, seed_);
     request.first_sample = first;
     request.samples = samples;
     request.indirect_samples = c.plan.indirect_samples;

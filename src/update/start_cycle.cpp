@@ -1,6 +1,6 @@
 // The first cycles of a view: a whole picture, as good as its seconds can pay.
 
-#include "sample_selector/stand_ins.h"
+#include "sample_selector/relocate_hidden.h"
 #include "update/start_level.h"
 #include "update/update_cycle.h"
 
@@ -26,8 +26,7 @@ void UpdateCycle::start() {
     ShadeWork work = new_work();
     {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
-        mesh_front_.attach(cache_);
-        sample_hidden_in_view(cache_, mesh_front_);
+        attach_front();
     }
     if (settings_.scheme == Scheme::best && !settings_.fixed_size && cost_learning_ == 0)
         measure_costs();
@@ -42,6 +41,12 @@ void UpdateCycle::start() {
     if (settings_.scheme == Scheme::best) dig_out();
     estimate_exposure();
     refresh(Extent::everything);
+}
+
+void UpdateCycle::attach_front() {
+    cache_.take_forgotten();  // the front asks for everything anew
+    mesh_front_.attach(cache_);
+    relocate_hidden(cache_, mesh_front_);
 }
 
 // A face whose corners all lie in its neighbours would be black: divides such patches at once,

@@ -13,8 +13,13 @@ namespace chiaro {
 namespace {
 
 // Light that is several dB off is seen before outlines are, whose rays take several times as long
-// as those of the first picture. So many times these go into light first.
-constexpr double kRefineBeforeOutlines = 3;
+// as those of the first picture. What goes into light before them: so many times these, but no more
+// seconds than anyone would wait for.
+std::chrono::steady_clock::duration moment_before_outlines(double seconds_of_first_map) {
+    constexpr double kTimes = 3, kMostSeconds = 0.5;
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(std::min(kTimes * seconds_of_first_map, kMostSeconds)));
+}
 
 // Whether the picture shows light that glossy surfaces' vertices are asked for.
 bool shows_cached_gloss(const UpdateSettings& settings, const Scene& scene) {
@@ -70,6 +75,13 @@ float cost(const SampleCosts& costs, Light light) {
     }
 }
 
+std::vector<bool> buried(const ShadingCache& cache, std::span<const VertexId> vertices) {
+    std::vector<bool> buried;
+    buried.reserve(vertices.size());
+    for (const VertexId v : vertices) buried.push_back(cache.vertex(v).buried != 0);
+    return buried;
+}
+
 SplitRule split_rule(Scheme scheme) {
     return scheme == Scheme::paper ? SplitRule::always_four : SplitRule::by_shape;
 }
@@ -108,18 +120,20 @@ void UpdateCycle::run() {
     check(view_.has_value(), "UpdateCycle: look_from() comes before run()");
     const auto start_time = std::chrono::steady_clock::now();
     switch (stage_) {
-        case Stage::new_view:
+        case Stage::new_view: {
             make_map(ViewQuality::one_ray);
-            seconds_of_map_ = seconds_since(start_time);
+            const double seconds_of_map = seconds_since(start_time);
             restart_polish();
             start();
             stage_ = Stage::covered;
-            covered_at_ = std::chrono::steady_clock::now();
+            outlines_from_ =
+                std::chrono::steady_clock::now() + moment_before_outlines(seconds_of_map);
             break;
+        }
         case Stage::covered:
-            if (!settings_.fixed_size &&
-                seconds_since(covered_at_) < kRefineBeforeOutlines * seconds_of_map_) {
-                settings_.scheme == Scheme::paper ? refine_as_paper() : refine();
+            if (settings_.scheme == Scheme::best && !settings_.fixed_size &&
+                std::chrono::steady_clock::now() < outlines_from_) {
+                refine();
                 break;
             }
             // The view rests: outlines and textures deserve more rays now.
@@ -145,13 +159,20 @@ void UpdateCycle::shade(ShadeWork& work) {
     const StepTimer timer(statistics_.timings, Step::rendering);
     for (int c = 0; c < cache_.channels(); ++c) {
         const std::vector<VertexId> new_ones = evaluated_first(work, c);
+        const auto buried_before = buried(cache_, work.vertices(c));
         const double seconds =
             work.shade(cache_, *renderer_, c, static_cast<Cycle>(statistics_.cycles));
         if (settings_.scheme == Scheme::best) {
             const auto suspects = mesh_front_.settle(cache_, new_ones, c, gains_);
             news_[c].insert(news_[c].end(), suspects.begin(), suspects.end());
-            for (const VertexId v : work.vertices(c))
-                if (cache_.vertex(v).of_mesh) news_[c].push_back(v);
+            const auto buried_now = buried(cache_, work.vertices(c));
+            for (std::size_t i = 0; i < buried_now.size(); ++i) {
+                const VertexId v = work.vertices(c)[i];
+                if (!cache_.vertex(v).of_mesh) continue;
+                // One that is found buried, or not, speaks otherwise in all channels.
+                for (int other = 0; other < cache_.channels(); ++other)
+                    if (other == c || buried_now[i] != buried_before[i]) news_[other].push_back(v);
+            }
         }
         statistics_.samples[c] += work.samples(c);
         if (settings_.fixed_size || work.samples(c) < 2000) continue;
@@ -207,10 +228,10 @@ void UpdateCycle::age() {
     if (!age_out(cache_, settings_.aging, now)) return;
     // All ids have changed: look again.
     for (SumTree& tree : front_) tree.clear();
-    make_map(ViewQuality::antialiased);
+    make_map(stage_ == Stage::refining ? ViewQuality::antialiased : ViewQuality::one_ray);
     // The view is the same, and so are its pixels: what passes have shown of them stays.
     if (polish_.size() != map_.chance_pixels.size()) restart_polish();
-    mesh_front_.attach(cache_);
+    attach_front();
     refresh(Extent::everything);
 }
 

@@ -90,6 +90,7 @@ private:
     void light_pixels(const ChancePass& seen, std::span<Rgb> light);
     ShadeWork new_work() const;
     void start();
+    void attach_front();
     void dig_out();
     void divide(PatchId patch, int channel, ShadeWork& work);
     void measure_costs();
@@ -137,8 +138,7 @@ private:
     bool environment_;  // there is one that shines
     std::optional<View> view_;
     enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
-    double seconds_of_map_ = 0;  // of a new view's first rays
-    std::chrono::steady_clock::time_point covered_at_;
+    std::chrono::steady_clock::time_point outlines_from_;
 
     Rng rng_;
     GainSettings gains_;

@@ -86,34 +86,46 @@ TEST(MeshVertices, BackSidesHaveVerticesOfTheirOwnWithTheSameParents) {
     expect_the_meshs_parents(dense);
 }
 
-// A vertex that nobody sees is sampled where another is, and as itself again once it is a corner in
-// view: what was known of the other place is forgotten.
-TEST(MeshVertices, AVertexStandsInUntilItIsSeenItself) {
+// A vertex that nobody sees is sampled where another is, and where it is itself once it is a root's
+// corner: what was known of the other place is forgotten, which is told once.
+TEST(MeshVertices, ARelocatedVertexIsItselfAgainAtARoot) {
     DenseGrid dense(32, 32, 2);
     ShadingCache& cache = dense.cache;
-    const VertexId seen = cache.patch(cache.root(ObjectId{0}, 777, true)).corners[0];
+    const PatchId in_view = cache.root(ObjectId{0}, 777, true);
+    const VertexId seen = cache.patch(in_view).corners[0];
     const VertexId hidden = coarsest(cache).front();
-    ASSERT_NE(hidden, seen);
+    ASSERT_FALSE(cache.of_root(hidden));
+    EXPECT_TRUE(cache.of_root(seen));
     const SurfacePoint own = cache.surface_point(hidden);
     const std::uint32_t in_the_mesh = in_mesh(dense, hidden);
     const int level = cache.level(hidden);
-    cache.stand_in(hidden, seen);
+    cache.relocate(hidden, seen);
+    EXPECT_TRUE(cache.relocated(hidden));
     EXPECT_EQ(cache.surface_point(hidden).primitive, cache.surface_point(seen).primitive);
     EXPECT_EQ(cache.surface_point(hidden).u, cache.surface_point(seen).u);
     EXPECT_EQ(cache.level(hidden), level);  // it speaks for the same as before
-    cache.store(hidden, 0, Rgb(8), 0, 64, 1);
     cache.store(hidden, 1, Rgb(2), 0, 64, 1);
     cache.mark_buried(hidden);
-    cache.root(ObjectId{0}, 777, true);  // known already, and none of its corners
-    EXPECT_TRUE(cache.evaluated(hidden, 0));
+    cache.collapse(in_view);
+    cache.pack();
+    EXPECT_TRUE(cache.relocated(hidden));  // nothing was given up, so ids are the same
+    cache.root(ObjectId{0}, 2, true);
+    cache.root(ObjectId{0}, 777, true);
+    EXPECT_TRUE(cache.evaluated(hidden, 1));
+    EXPECT_TRUE(cache.take_forgotten().empty());
 
     cache.root(ObjectId{0}, own.primitive, true);
     EXPECT_EQ(in_mesh(dense, hidden), in_the_mesh);
-    for (const int channel : {0, 1}) EXPECT_FALSE(cache.evaluated(hidden, channel));
+    EXPECT_EQ(cache.surface_point(hidden).u, own.u);
+    EXPECT_FALSE(cache.relocated(hidden));
+    EXPECT_TRUE(cache.of_root(hidden));
+    EXPECT_FALSE(cache.evaluated(hidden));
     EXPECT_FALSE(cache.vertex(hidden).buried);
     EXPECT_TRUE(cache.vertex(hidden).hollow);  // none is above it
+    EXPECT_EQ(cache.take_forgotten(), (std::vector<std::pair<VertexId, int>>{{hidden, 1}}));
+    EXPECT_TRUE(cache.take_forgotten().empty());
     cache.resolve();
-    EXPECT_EQ(luminance(cache.shown(seen, 0).value), 0);
+    EXPECT_EQ(luminance(cache.shown(seen, 1).value), 0);
     expect_consistent(cache);
 }
 

@@ -49,6 +49,28 @@ TEST(FirstPicture, CostDoesNotGrowWithThePicture) {
     EXPECT_NEAR(double(points[1]) / double(points[0]), 1, 0.5);
 }
 
+// A view that rests is refined for a moment, and then its outlines are smoothed: with cycles timed
+// as users have them, which no other test here is.
+TEST(FirstPicture, OutlinesAreSmoothedInAMoment) {
+    Scene scene = make_cornell_box();
+    const Camera camera = scene.cameras.front();
+    UpdateSettings settings = fixed_size(Scheme::best);
+    settings.fixed_size = false;
+    settings.cycle_seconds = 0.005;
+    Studio studio(std::move(scene), settings);
+    studio.cycle.look_from({camera, 160, 120});
+    studio.cycle.run();
+    const std::size_t one_a_pixel = studio.cycle.id_map().fragments.size();
+    EXPECT_LE(one_a_pixel, 160u * 120);
+    // A moment is half a second at most.
+    const double first = studio.cycle.statistics().seconds;
+    while (studio.cycle.id_map().fragments.size() == one_a_pixel &&
+           studio.cycle.statistics().seconds < first + 60)
+        studio.cycle.run();
+    EXPECT_GT(studio.cycle.id_map().fragments.size(), one_a_pixel + 100);
+    EXPECT_GE(studio.cycle.statistics().cycles, 2u);
+}
+
 // A ground of 2000 km under an eye at 1.7 m is divided as far as places on it can be told apart.
 TEST(FirstPicture, AGroundWithoutEnd) {
     Scene scene;
