@@ -25,7 +25,7 @@ CLOSE = {
     "kitchen": [(0.36, 0.62, 0.3, 0.36), (0.16, 0.04, 0.42, 0.34)],
     "classroom": [(0.42, 0.62, 0.26, 0.36), (0.06, 0.2, 0.44, 0.34)],
 }
-LOADED = {"ring": "one smooth mesh", "furnished": "62 flat-shaded meshes", "room": "built-in room"}
+LOADED = {"ring": "one smooth mesh", "furnished": "60 flat-shaded meshes", "room": "built-in room"}
 
 
 def read(file):
@@ -44,9 +44,18 @@ def late(run, method):
     return f"{psnr:.1f} dB" if psnr is not None else "-"
 
 
+def besides_rendering(run):
+    """The part of the later cycles that is spent on anything but shading points."""
+    seconds = run["of_methods"]["best"].get("second_half_seconds")
+    if not seconds:
+        return "-"
+    return f"{100 * (1 - seconds['rendering'] / sum(seconds.values())):.0f} %"
+
+
 def dense_table(runs):
     lines = ["| scene | triangles | in view | first whole picture | without levels | sooner by | over the plain scene's"
-             f" | after {LATE} s | without levels | levels made in | Embree's build |", "|---|" + "---|" * 10]
+             f" | after {LATE} s | without levels | all but rendering | levels made in | Embree's build |",
+             "|---|" + "---|" * 11]
     for plain, dense in runs:
         for run in (plain, dense):
             best, roots = first(run, "best"), first(run, "roots")
@@ -57,8 +66,19 @@ def dense_table(runs):
                 f" {loading['visible_triangles']} | {best['seconds']:.2f} s, {best['psnr']:.1f} dB |"
                 f" {roots['seconds']:.2f} s, {roots['psnr']:.1f} dB |"
                 f" **{roots['seconds'] / best['seconds']:.1f}** | {f'{over:.1f}' if run is dense else ''} |"
-                f" {late(run, 'best')} | {late(run, 'roots')} | {loading['graphs_seconds']:.3f} s |"
+                f" {late(run, 'best')} | {late(run, 'roots')} | {besides_rendering(run)} | {loading['graphs_seconds']:.3f} s |"
                 f" {run['loading']['embree_seconds']:.3f} s |")
+    return "\n".join(lines)
+
+
+def first_table(runs):
+    lines = ["| scene | triangles | in view | first whole picture | without levels | sooner by |"
+             " all but rendering |", "|---|" + "---|" * 6]
+    for run in runs:
+        best, roots = first(run, "best")["seconds"], first(run, "roots")["seconds"]
+        lines.append(f"| {run['scene']} | {run['loading']['triangles']} |"
+                     f" {run['of_methods']['best']['loading']['visible_triangles']} |"
+                     f" {best:.2f} s | {roots:.2f} s | **{roots / best:.1f}** | {besides_rendering(run)} |")
     return "\n".join(lines)
 
 
@@ -180,6 +200,9 @@ def main():
         draw_errors(runs, pictures / "dense.png")
         draw_pictures(folder, runs, pictures)
         write_table(docs, "dense", dense_table(runs))
+    firsts = [run for run in (read(folder / f"{name}_first.json") for name in ORDER) if run]
+    if firsts:
+        write_table(docs, "first", first_table(firsts))
     loading = read(folder / "load_time.json")
     if loading:
         draw_load(loading["rows"], pictures / "load_time.png")

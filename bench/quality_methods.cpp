@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <unordered_set>
 
 namespace chiaro {
@@ -108,9 +109,10 @@ std::size_t visible_triangles(const ShadingCache& cache) {
     return count;
 }
 
-Json seconds_by_step(const Timings& timings) {
+Json seconds_by_step(const Timings& timings, const Timings& before = {}) {
     Json steps;
-    for (std::size_t i = 0; i < kSteps; ++i) steps[kStepNames[i]] = timings.seconds[i];
+    for (std::size_t i = 0; i < kSteps; ++i)
+        steps[kStepNames[i]] = timings.seconds[i] - before.seconds[i];
     return steps;
 }
 
@@ -127,6 +129,7 @@ Json measure_cache(const Method& method, const Measuring& measuring) {
     loading["graphs_bytes"] = graphs.bytes();
 
     double spent = 0;
+    std::optional<Timings> halfway;
     watch.restart();
     UpdateCycle cycle(stage.rays, graphs, *renderer, open_sides,
                       {.scheme = method.scheme, .threads = stage.threads});
@@ -138,6 +141,7 @@ Json measure_cache(const Method& method, const Measuring& measuring) {
             loading["visible_triangles"] = visible_triangles(cycle.cache());
             steps = seconds_by_step(cycle.statistics().timings);
         }
+        if (!halfway && spent >= measuring.seconds / 2) halfway = cycle.statistics().timings;
         if (recorder.due(spent) || first) {
             watch.restart();
             const Image picture = cycle.picture();
@@ -153,6 +157,7 @@ Json measure_cache(const Method& method, const Measuring& measuring) {
         recorder.rows.front()["points"].get<double>() / std::max(1.0, points);
     return {{"loading", loading},
             {"first_picture_seconds", steps},
+            {"second_half_seconds", seconds_by_step(cycle.statistics().timings, *halfway)},
             {"pictures", recorder.pictures},
             {"rows", recorder.rows}};
 }

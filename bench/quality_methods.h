@@ -70,7 +70,8 @@ void keep_picture(const Measuring& measuring, const std::string& name, const Ima
 /// Runs the method. `rows` of the result are in order of time, each with the `seconds` after
 /// loading, one drawing included, and the picture's `psnr` [dB] and `relmse`; the first is of the
 /// first whole picture. `loading` has what the method needs made at load, beside the stage,
-/// `first_picture_seconds` where the first cycle's time went, and `pictures` those that were kept.
+/// `first_picture_seconds` where the first cycle's time went, `second_half_seconds` where that of
+/// the second half of all went, and `pictures` those that were kept.
 nlohmann::ordered_json measure(const Method& method, const Measuring& measuring);
 
 }  // namespace chiaro

@@ -37,6 +37,10 @@ constexpr float kUnproven = 0.02f;
 // may be hidden, and are worth next to nothing themselves.
 constexpr float kEnoughKnown = 0.5f;
 
+// A patch of more fragments is not told of by how well coarser levels predicted its corners: these
+// are no farther than it is wide. They count as corners that nothing predicted.
+constexpr std::uint32_t kMostToldByLevels = 16;
+
 // New vertices a division makes on average, neighbours sharing the midpoints.
 constexpr float kNewInFour = 3;
 constexpr float kNewAcross = 1.5f;
@@ -56,7 +60,8 @@ struct Survey {
     int buried = 0;
     int count = 0;
 
-    void add(const ShadingCache& cache, VertexId v, int channel, float part) {
+    void add(const ShadingCache& cache, VertexId v, int channel, float part,
+             float least_surplus = 0) {
         ++count;
         buried += cache.vertex(v).buried ? 1 : 0;
         light += part * luminance(cache.shown_total(v, cache.shading(channel)).value);
@@ -64,7 +69,7 @@ struct Survey {
         low = std::min(low, value);
         high = std::max(high, value);
         if (const Estimate* e = cache.estimate(v, channel); e && !cache.vertex(v).buried) {
-            const float surplus = cache.surplus(v, channel);
+            const float surplus = std::max(cache.surplus(v, channel), least_surplus);
             surplus2 += part * surplus * surplus;
             variance += part * e->variance;
         }
@@ -133,7 +138,10 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
     float picture = 0;
     const float part = 1.0f / static_cast<float>(patch.corner_count());
     for (int i = 0; i < patch.corner_count(); ++i) {
-        corners.add(cache, patch.corners[i], channel, part);
+        const VertexId corner = patch.corners[i];
+        const bool alone = cache.vertex(corner).of_mesh && patch.fragment_count > kMostToldByLevels;
+        corners.add(cache, corner, channel, part,
+                    alone ? cache.surplus_of_unknown(corner, channel) : 0);
         picture += part * settings.scale.shown(cache, patch, patch.corners[i]);
     }
     const float slope = to_curve(cache, channel, settings.scale, patch.reflectance, picture);

@@ -107,6 +107,8 @@ public:
     /// By how much the vertex's estimate missed its prediction (luminance); where there was none, a
     /// part of all light there. Checks: evaluated.
     float surplus(VertexId vertex, int channel) const;
+    /// That part, of what tells nothing of what lies around it (luminance).
+    float surplus_of_unknown(VertexId vertex, int channel) const;
 
     /// Raises a vertex's surplus to at least `luminance`: its children were found to differ more
     /// than it would tell. Returns whether it was less. Checks: evaluated.

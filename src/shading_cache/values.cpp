@@ -60,12 +60,15 @@ float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float vari
 }
 
 float ShadingCache::surplus(VertexId id, int channel) const {
-    // A vertex that nothing predicted tells nothing of what lies around it.
-    constexpr float kPartUnknown = 0.4f;
     const Estimate* e = estimate(id, channel);
     check(e != nullptr, "surplus: the vertex was not evaluated");
     if (e->surplus != Estimate::kUnknown) return e->surplus;
-    return kPartUnknown * luminance(shown_total(id, shading(channel)).value);
+    return surplus_of_unknown(id, channel);
+}
+
+float ShadingCache::surplus_of_unknown(VertexId id, int channel) const {
+    constexpr float kPart = 0.4f;
+    return kPart * luminance(shown_total(id, shading(channel)).value);
 }
 
 bool ShadingCache::suspect(VertexId id, int channel, float luminance) {

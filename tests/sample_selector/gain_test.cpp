@@ -3,7 +3,7 @@
 #include "sample_selector/gain.h"
 
 #include "sample_selector/gain_settings.h"
-#include "shading_cache/cache_testing.h"
+#include "shading_cache/dense_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -213,6 +213,29 @@ TEST(Gain, BuriedCornersAskForRefinement) {
     EXPECT_NE(s.gain().noisiest, s.corners[0]);
     for (const VertexId v : s.corners) s.cache.mark_buried(v);
     EXPECT_EQ(s.gain().resample, 0);
+}
+
+// That coarser levels predicted a triangle's corners exactly tells of its inside while it covers up
+// to 16 pixels. On a larger one they count as corners that nothing predicted: of 0.4 of all light.
+TEST(Gain, CoarserLevelsTellNothingOfLargeTriangles) {
+    float gain_a_pixel[2] = {};
+    for (const bool large : {false, true}) {
+        DenseGrid dense(24, 24);
+        const PatchId root = dense.cache.root(ObjectId{0}, 555, true);
+        Rng rng(1);
+        IdMap map = random_map(dense.cache, {root}, large ? 17 : 16, rng);
+        for (Fragment& f : map.fragments) f.reflectance = Rgb(1);
+        attach(dense.cache, map, 1);
+        for (const VertexId id : all_vertices(dense.cache)) {
+            dense.cache.store(id, 0, Rgb(0.25f), 0, 64, 1);
+            dense.cache.resolve();
+        }
+        gain_a_pixel[large] = gain(dense.cache, root, 0, settings()).refine / (large ? 17 : 16);
+    }
+    // Corners in the small one suspect a quarter of what their parents do for ever, or an eighth
+    // and less: that of the coarsest, 0.4 of all light, a level or more above.
+    EXPECT_GT(gain_a_pixel[0], 0);
+    EXPECT_GT(gain_a_pixel[1], 10 * gain_a_pixel[0]);
 }
 
 // The front of a channel: ancestors refined, itself not.
