@@ -155,13 +155,28 @@ void MeshFront::blame(ShadingCache& cache, VertexId vertex, int channel, float s
     }
 }
 
+// Its part of the pixels of roots that gain nothing yet, as others of their corners are not
+// evaluated.
+float MeshFront::waiting(const ShadingCache& cache, std::size_t place, int channel) const {
+    float sum = 0;
+    for (const PatchId root : roots_.of(place)) {
+        const Patch& patch = cache.patch(root);
+        const auto corners = std::span(patch.corners).first(patch.corner_count());
+        if (!std::ranges::all_of(corners, [&](VertexId v) { return cache.evaluated(v, channel); }))
+            sum += cache.pixels(patch, channel) / static_cast<float>(corners.size());
+    }
+    return sum;
+}
+
 float MeshFront::gain_at(const ShadingCache& cache, std::size_t place, int channel,
                          const GainSettings& settings) const {
-    const float seen = pixels(cache, place, channel);
-    if (!(seen > 0)) return 0;
     const VertexId id = vertices_[place];
-    return cache.evaluated(id, channel) ? gain_of_more(cache, id, channel, seen, settings)
-                                        : gain_of_first(cache, id, channel, seen, settings);
+    const bool evaluated = cache.evaluated(id, channel);
+    const float seen =
+        pixels(cache, place, channel) + (evaluated ? waiting(cache, place, channel) : 0);
+    if (!(seen > 0)) return 0;
+    return evaluated ? gain_of_more(cache, id, channel, seen, settings)
+                     : gain_of_first(cache, id, channel, seen, settings);
 }
 
 void MeshFront::reckon(const ShadingCache& cache, const GainSettings& settings) {

@@ -79,6 +79,7 @@ private:
     void weigh(const ShadingCache& cache);
     void mark_children(const ShadingCache& cache, std::size_t place, int channel);
     void lift(const ShadingCache& cache, VertexId vertex, int channel, float pixels);
+    float waiting(const ShadingCache& cache, std::size_t place, int channel) const;
     float gain_at(const ShadingCache& cache, std::size_t place, int channel,
                   const GainSettings& settings) const;
 

@@ -15,10 +15,9 @@ namespace {
 // Light that is several dB off is seen before outlines are, whose rays take several times as long
 // as those of the first picture. What goes into light before them: so many times these, but no more
 // seconds than anyone would wait for.
-std::chrono::steady_clock::duration moment_before_outlines(double seconds_of_first_map) {
+double seconds_before_outlines(double seconds_of_first_map) {
     constexpr double kTimes = 3, kMostSeconds = 0.5;
-    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-        std::chrono::duration<double>(std::min(kTimes * seconds_of_first_map, kMostSeconds)));
+    return std::min(kTimes * seconds_of_first_map, kMostSeconds);
 }
 
 // Whether the picture shows light that glossy surfaces' vertices are asked for.
@@ -126,13 +125,13 @@ void UpdateCycle::run() {
             restart_polish();
             start();
             stage_ = Stage::covered;
-            outlines_from_ =
-                std::chrono::steady_clock::now() + moment_before_outlines(seconds_of_map);
+            outlines_from_ = statistics_.seconds + seconds_since(start_time) +
+                             seconds_before_outlines(seconds_of_map);
             break;
         }
         case Stage::covered:
             if (settings_.scheme == Scheme::best && !settings_.fixed_size &&
-                std::chrono::steady_clock::now() < outlines_from_) {
+                statistics_.seconds < outlines_from_) {
                 refine();
                 break;
             }

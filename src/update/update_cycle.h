@@ -11,7 +11,6 @@
 #include "update/shade_work.h"
 #include "update/timings.h"
 
-#include <chrono>
 #include <optional>
 
 namespace chiaro {
@@ -138,7 +137,7 @@ private:
     bool environment_;  // there is one that shines
     std::optional<View> view_;
     enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
-    std::chrono::steady_clock::time_point outlines_from_;
+    double outlines_from_ = 0;  // of statistics_.seconds: when outlines of this view are smoothed
 
     Rng rng_;
     GainSettings gains_;

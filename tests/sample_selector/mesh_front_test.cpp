@@ -237,6 +237,28 @@ TEST(MeshFront, TheDrawLearnsOfAllThatACycleChanged) {
     }
 }
 
+// A fine vertex that speaks for nobody is sampled again by what its own pixels gain, as long as the
+// patches round it wait for other corners; from then on that is theirs to ask for.
+TEST(MeshFront, NoiseAmongUnknownVerticesIsSampledAgain) {
+    for (const float variance : {0.0f, 25.0f}) {
+        Front f;
+        f.store(coarsest(f.cache), 0, [](VertexId) { return 1.0f; });
+        const auto left = f.not_evaluated(0);
+        const VertexId fine =
+            *std::ranges::find_if(left, [&](VertexId id) { return f.cache.level(id) == 0; });
+        f.cache.store(fine, 0, Rgb(1), variance, 64, 1);
+        f.front.settle(f.cache, std::vector{fine}, 0, settings());
+        f.front.reckon(f.cache, settings());
+        const double total = f.front.total(0);
+        f.front.rest(fine, 0);
+        const double own_gain = total - f.front.total(0);
+        EXPECT_EQ(own_gain > 1e-6 * total, variance > 0);
+        f.store(f.not_evaluated(0), 0, [](VertexId) { return 1.0f; });
+        f.front.reckon(f.cache, settings());
+        EXPECT_LT(f.front.total(0), 1e-3 * total);
+    }
+}
+
 // Coarse ones first: a vertex waits until half of what predicts it is evaluated, unless nothing is
 // known of it at all.
 TEST(MeshFront, VerticesWaitForHalfOfTheirParents) {
