@@ -46,9 +46,7 @@ def late(run, method):
 
 def besides_rendering(run):
     """The part of the later cycles that is spent on anything but shading points."""
-    seconds = run["of_methods"]["best"].get("second_half_seconds")
-    if not seconds:
-        return "-"
+    seconds = run["of_methods"]["best"]["second_half_seconds"]
     return f"{100 * (1 - seconds['rendering'] / sum(seconds.values())):.0f} %"
 
 

@@ -120,8 +120,7 @@ double UpdateCycle::polish_pixels(std::size_t count) {
 
     if (settings_.fixed_size)
         return static_cast<double>(count) * kSecondsAPolishedPixel + work_seconds(work);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    const double seconds = elapsed.count() * threads_at_once();
+    const double seconds = seconds_since(start) * threads_at_once();
     // What was dearer than expected counts at once, so that no cycle is much too long twice.
     const double a_pixel = seconds / static_cast<double>(count);
     double& known = seconds_a_polished_pixel_;

@@ -49,8 +49,7 @@ void UpdateCycle::refine_as_paper() {
     }
 
     // The next cycle asks for as many as would have filled this one's time.
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = seconds_since(start);
     const double length = settings_.cycle_seconds * (1 - polish_share());
     const double factor = std::clamp(length / seconds, 0.5, 2.0);
     paper_sample_count_ = std::clamp(paper_sample_count_ * factor, 8.0, 1e6);

@@ -1,6 +1,7 @@
 #include "update/shade_work.h"
 
 #include "base/random.h"
+#include "update/timings.h"
 
 #include <algorithm>
 #include <bit>
@@ -75,8 +76,7 @@ double ShadeWork::shade(ShadingCache& cache, SampleRenderer& renderer, int chann
     const auto start = std::chrono::steady_clock::now();
     std::vector<ShadeResult> results(c.requests.size());
     renderer.shade(c.requests, results);
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = seconds_since(start);
 
     // In the graph's order, so that a vertex finds its parents stored when it reckons its surplus.
     std::vector<std::size_t> order(results.size());

@@ -7,6 +7,11 @@
 
 namespace chiaro {
 
+/// Wall time from `start` to now [s].
+inline double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 enum class Step {
     sample_selection,   // ID map, priorities, selection
     patch_subdivision,  // dividing patches, handing fragments down
@@ -41,7 +46,7 @@ public:
         timings.nested = 0;
     }
     ~StepTimer() {
-        const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+        const double elapsed = seconds_since(start_);
         timings_.seconds[static_cast<std::size_t>(step_)] += elapsed - timings_.nested;
         timings_.nested = outer_nested_ + elapsed;
     }

@@ -59,10 +59,6 @@ Channels count_channels(std::span<const ChannelPlan> plans) {
     return count;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 float cost(const SampleCosts& costs, Light light) {
     switch (light) {
         case Light::direct:
