@@ -6,6 +6,12 @@
 #include <bit>
 
 namespace chiaro {
+namespace {
+
+// Vertices whose gains one thread reckons at once.
+constexpr std::size_t kAtOnce = 1024;
+
+}  // namespace
 
 void MeshFront::attach(const ShadingCache& cache) {
     vertices_.clear();
@@ -179,12 +185,14 @@ float MeshFront::gain_at(const ShadingCache& cache, std::size_t place, int chann
                      : gain_of_first(cache, id, channel, seen, settings);
 }
 
-void MeshFront::reckon(const ShadingCache& cache, const GainSettings& settings) {
+void MeshFront::reckon(const ShadingCache& cache, const GainSettings& settings, int threads) {
     gains_.resize(cache.channels());
     std::vector<float> gains(vertices_.size());
     for (int c = 0; c < cache.channels(); ++c) {
-        for (std::size_t place = 0; place < gains.size(); ++place)
-            gains[place] = gain_at(cache, place, c, settings);
+        parallel_for_ranges(threads, gains.size(), kAtOnce, [&](IndexRange range) {
+            for (std::size_t place = range.begin; place < range.end; ++place)
+                gains[place] = gain_at(cache, place, c, settings);
+        });
         gains_[c].assign(gains);
     }
 }
@@ -219,7 +227,6 @@ std::size_t MeshFront::carry(ShadingCache& cache, std::span<const VertexId> news
 
     // What they gain depends on nothing but values.
     carried_gains_.resize(carried_.size());
-    constexpr std::size_t kAtOnce = 1024;
     parallel_for_ranges(threads, carried_.size(), kAtOnce, [&](IndexRange range) {
         for (std::size_t i = range.begin; i < range.end; ++i)
             carried_gains_[i] = gain_at(cache, carried_[i], channel, settings);

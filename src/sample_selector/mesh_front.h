@@ -60,8 +60,8 @@ public:
     /// The roots in view round a vertex.
     std::span<const PatchId> roots_round(VertexId vertex) const;
 
-    /// Reckons gains anew, of all vertices or of one.
-    void reckon(const ShadingCache& cache, const GainSettings& settings);
+    /// Reckons gains anew, of all vertices (on up to `threads` threads) or of one.
+    void reckon(const ShadingCache& cache, const GainSettings& settings, int threads);
     void reckon(const ShadingCache& cache, VertexId vertex, int channel,
                 const GainSettings& settings);
     /// Takes a vertex out of the draw until its gain is reckoned again.

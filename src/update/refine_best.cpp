@@ -232,7 +232,7 @@ void UpdateCycle::refresh(Extent extent) {
         const StepTimer timer(statistics_.timings, Step::sample_selection);
         for (int c = 0; c < cache_.channels(); ++c) reckon_front(c, extent);
         if (extent == Extent::everything) {
-            mesh_front_.reckon(cache_, gains_);
+            mesh_front_.reckon(cache_, gains_, settings_.threads);
             for (auto& news : news_) news.clear();
         }
     }

@@ -122,7 +122,7 @@ TEST(MeshFront, SettlingLeavesWhatANewLookFinds) {
 TEST(MeshFront, NothingWeighsWhereAllIsEvaluated) {
     Front f;
     f.store(all_vertices(f.cache), 0, [](VertexId id) { return float(index_of(id) % 9); });
-    f.front.reckon(f.cache, settings());
+    f.front.reckon(f.cache, settings(), 2);
     for (std::size_t place = 0; place < f.front.vertices().size(); ++place)
         EXPECT_NEAR(f.front.pixels(f.cache, place, 0), 0, kRounding);
     EXPECT_NEAR(f.front.total(0), 0, 1e-3);
@@ -149,7 +149,7 @@ TEST(MeshFront, LevelsHaveFewerVerticesTheCoarserTheyAre) {
 // Carrying shows what one pass over all would, and looks at those alone whose parents changed.
 TEST(MeshFront, CarryingShowsWhatAFullPassWould) {
     Front f;
-    f.front.reckon(f.cache, settings());
+    f.front.reckon(f.cache, settings(), 2);
     Rng rng(3);
     std::vector<VertexId> news = coarsest(f.cache);
     for (int batch = 0; batch < 12; ++batch) {
@@ -173,7 +173,7 @@ TEST(MeshFront, CarryingShowsWhatAFullPassWould) {
 
 TEST(MeshFront, NothingIsCarriedWhereAllIsEvaluated) {
     Front f;
-    f.front.reckon(f.cache, settings());
+    f.front.reckon(f.cache, settings(), 2);
     f.store(all_vertices(f.cache), 0, [](VertexId) { return 8.0f; });
     for (const VertexId id : coarsest(f.cache)) f.cache.store(id, 0, Rgb(9), 0, 64, 1);
     EXPECT_EQ(f.front.carry(f.cache, coarsest(f.cache), 0, settings(), 2), 0u);
@@ -202,7 +202,7 @@ Siblings siblings(const ShadingCache& cache) {
 TEST(MeshFront, AMissIsSuspectedOfItsSiblings) {
     Front f;
     f.store(coarsest(f.cache), 0, [](VertexId) { return 0.5f; });
-    f.front.reckon(f.cache, settings());
+    f.front.reckon(f.cache, settings(), 2);
     f.front.carry(f.cache, coarsest(f.cache), 0, settings(), 2);
     const auto [one, other, parent] = siblings(f.cache);
     const auto gain = [&](VertexId id) { return gain_of_first(f.cache, id, 0, 1, settings()); };
@@ -224,14 +224,14 @@ TEST(MeshFront, AMissIsSuspectedOfItsSiblings) {
 // does not know yet what was lifted off vertices that still wait for their own parents.
 TEST(MeshFront, TheDrawLearnsOfAllThatACycleChanged) {
     Front f;
-    f.front.reckon(f.cache, settings());
+    f.front.reckon(f.cache, settings(), 2);
     Rng rng(5);
     std::vector<VertexId> news = coarsest(f.cache);
     for (int batch = 0; batch < 8; ++batch) {
         news = f.store(news, 0, [&](VertexId) { return 0.2f + 4 * rng.uniform(); });
         f.front.carry(f.cache, news, 0, settings(), 2);
         const double known = f.front.total(0);
-        f.front.reckon(f.cache, settings());
+        f.front.reckon(f.cache, settings(), 2);
         EXPECT_NEAR(known / f.front.total(0), 1, 0.05) << batch;
         news = f.some_of(f.not_evaluated(0), 20, rng);
     }
@@ -248,13 +248,13 @@ TEST(MeshFront, NoiseAmongUnknownVerticesIsSampledAgain) {
             *std::ranges::find_if(left, [&](VertexId id) { return f.cache.level(id) == 0; });
         f.cache.store(fine, 0, Rgb(1), variance, 64, 1);
         f.front.settle(f.cache, std::vector{fine}, 0, settings());
-        f.front.reckon(f.cache, settings());
+        f.front.reckon(f.cache, settings(), 2);
         const double total = f.front.total(0);
         f.front.rest(fine, 0);
         const double own_gain = total - f.front.total(0);
         EXPECT_EQ(own_gain > 1e-6 * total, variance > 0);
         f.store(f.not_evaluated(0), 0, [](VertexId) { return 1.0f; });
-        f.front.reckon(f.cache, settings());
+        f.front.reckon(f.cache, settings(), 2);
         EXPECT_LT(f.front.total(0), 1e-3 * total);
     }
 }
@@ -284,7 +284,7 @@ TEST(MeshFront, VerticesWaitForHalfOfTheirParents) {
 TEST(MeshFront, WhatIsDrawnIsInView) {
     Front f(900);
     f.store(coarsest(f.cache), 0, [](VertexId) { return 1.0f; });
-    f.front.reckon(f.cache, settings());
+    f.front.reckon(f.cache, settings(), 2);
     Rng rng(1);
     for (int i = 0; i < 300 && f.front.total(0) > 0; ++i) {
         const VertexId drawn = f.front.draw(0, rng.uniform());

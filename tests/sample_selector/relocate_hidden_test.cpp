@@ -102,7 +102,7 @@ TEST(RelocateHidden, ANearPlaceIsTaken) {
 TEST(RelocateHidden, WhatComesIntoViewWeighsAsWhatIsNew) {
     HalfSeen half;
     relocate_hidden(half.cache, half.front);
-    half.front.reckon(half.cache, settings());
+    half.front.reckon(half.cache, settings(), 2);
     auto known = coarsest(half.cache);
     for (const VertexId id : known) half.cache.store(id, 0, Rgb(1), 0, 64, 1);
     half.front.settle(half.cache, known, 0, settings());
