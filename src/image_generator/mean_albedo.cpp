@@ -12,29 +12,12 @@ namespace {
 // Primitives in a row within a pixel of which one cannot speak for the others.
 constexpr float kMostInPixel = 100;
 
-// What (u, v) change by along two edges of the half of a primitive that a point lies on, in world
-// space.
-struct Edges {
-    Vec3 u, v;
-};
-Edges edges_at(const Scene& scene, const SurfacePoint& point) {
-    const bool second_half = point.u + point.v > 1;
-    const float corner = second_half ? 1.0f : 0.0f;
-    const auto place = [&](float u, float v) {
-        return surface_position(scene, {point.object, point.primitive, u, v});
-    };
-    const float sign = 1 - 2 * corner;
-    const Vec3 origin = place(corner, corner);
-    return {sign * (place(1 - corner, corner) - origin),
-            sign * (place(corner, 1 - corner) - origin)};
-}
-
 }  // namespace
 
 std::optional<PixelFootprint> footprint_on_plane(const Scene& scene, const View& view, int x, int y,
                                                  const SurfacePoint& point) {
     const Vec3 here = surface_position(scene, point);
-    const Edges edge = edges_at(scene, point);
+    const SurfaceTangents edge = surface_tangents(scene, point);
     const Vec3 normal = glm::cross(edge.u, edge.v);
     const float area2 = glm::dot(normal, normal);
     if (!(area2 > 0)) return std::nullopt;

@@ -43,10 +43,21 @@ bool is_flat(const Mesh& mesh, const Primitive& primitive) {
 }
 
 std::vector<bool> curved_primitives(const Mesh& mesh) {
-    std::vector<bool> curved;
-    if (mesh.normals.empty()) return curved;
-    for (const Primitive& primitive : mesh.primitives) curved.push_back(!is_flat(mesh, primitive));
+    if (mesh.normals.empty() && mesh.bicubics.empty()) return {};
+    std::vector<bool> curved(mesh.bicubics.size(), true);
+    for (std::size_t i = curved.size(); i < mesh.primitives.size(); ++i)
+        curved.push_back(!mesh.normals.empty() && !is_flat(mesh, mesh.primitives[i]));
     return curved;
+}
+
+// The largest factor by which lengths grow, or somewhat more.
+float largest_stretch(const Mat4& to_world) {
+    float sum = 0;
+    for (int column = 0; column < 3; ++column) {
+        const Vec3 c(to_world[column]);
+        sum += glm::dot(c, c);
+    }
+    return std::sqrt(sum);
 }
 
 // Of about one size whatever the object's, so that products with it stay floats.
@@ -80,8 +91,8 @@ const char* name_of(RTCError error) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const Scene& scene, int threads)
-    : arena_(std::clamp(threads, 1, hardware_threads())) {
+EmbreeScene::EmbreeScene(const Scene& scene, int threads, float curve_tolerance)
+    : arena_(std::clamp(threads, 1, hardware_threads())), curve_tolerance_(curve_tolerance) {
     device_ = rtcNewDevice(nullptr);
     if (device_ == nullptr) throw Error("Embree", name_of(rtcGetDeviceError(nullptr)));
     try {
@@ -99,6 +110,8 @@ void EmbreeScene::build(const Scene& scene) {
     // A scene for each mesh that is shown; objects are instances of them.
     meshes_.resize(scene.meshes.size(), nullptr);
     curved_.resize(scene.meshes.size());
+    grids_.resize(scene.meshes.size());
+    curve_errors_.resize(scene.meshes.size(), 0.0f);
     for (const Object& object : scene.objects)
         if (shows_something(scene, object) && meshes_[index_of(object.mesh)] == nullptr)
             build_mesh(object.mesh, scene);
@@ -112,7 +125,8 @@ void EmbreeScene::build(const Scene& scene) {
         Instance& instance = objects_[i];
         instance.mesh = index_of(scene.objects[i].mesh);
         instance.primitives = scene.mesh_of(scene.objects[i]).primitives.data();
-        instance.quad_count = scene.mesh_of(scene.objects[i]).quad_count;
+        const Mesh& mesh = scene.mesh_of(scene.objects[i]);
+        instance.first_of = {static_cast<std::uint32_t>(mesh.bicubics.size()), mesh.quad_count, 0};
         const std::vector<bool>& curved = curved_[instance.mesh];
         instance.any_curved = std::find(curved.begin(), curved.end(), true) != curved.end();
         instance.geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -156,18 +170,22 @@ void EmbreeScene::build_mesh(MeshId id, const Scene& scene) {
     RTCBuffer positions = rtcNewBuffer(device_, bytes + 16);
     check_device("allocating points");
     std::memcpy(rtcGetBufferData(positions), mesh.positions.data(), bytes);
-    if (mesh.quad_count > 0) attach(mesh_scene, positions, mesh, scene, true);
-    if (mesh.quad_count < mesh.primitives.size()) attach(mesh_scene, positions, mesh, scene, false);
+    if (mesh.bicubics.size() < mesh.quad_count)
+        attach_polygons(mesh_scene, positions, mesh, scene, kQuads);
+    if (mesh.quad_count < mesh.primitives.size())
+        attach_polygons(mesh_scene, positions, mesh, scene, kTriangles);
     rtcReleaseBuffer(positions);
+    if (!mesh.bicubics.empty()) attach_bicubics(mesh_scene, id, scene);
 
     rtcCommitScene(mesh_scene);
     check_device("building a mesh");
 }
 
-void EmbreeScene::attach(RTCScene mesh_scene, RTCBuffer positions, const Mesh& mesh,
-                         const Scene& scene, bool quads) {
-    const std::uint32_t first = quads ? 0 : mesh.quad_count;
-    const std::size_t count = quads ? mesh.quad_count : mesh.primitives.size() - first;
+void EmbreeScene::attach_polygons(RTCScene mesh_scene, RTCBuffer positions, const Mesh& mesh,
+                                  const Scene& scene, GeometryKind kind) {
+    const bool quads = kind == kQuads;
+    const std::size_t first = quads ? mesh.bicubics.size() : mesh.quad_count;
+    const std::size_t count = (quads ? mesh.quad_count : mesh.primitives.size()) - first;
     RTCGeometry geometry =
         rtcNewGeometry(device_, quads ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
@@ -178,13 +196,45 @@ void EmbreeScene::attach(RTCScene mesh_scene, RTCBuffer positions, const Mesh& m
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
                                quads ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3, mesh.primitives.data(),
                                first * sizeof(Primitive), sizeof(Primitive), count);
+    attach(mesh_scene, geometry, mesh, scene, kind);
+}
+
+void EmbreeScene::attach_bicubics(RTCScene mesh_scene, MeshId id, const Scene& scene) {
+    const Mesh& mesh = scene.meshes[index_of(id)];
+    Box box;
+    for (const BicubicPatch& patch : mesh.bicubics) box.add(hull(patch));
+    const float error = curve_tolerance_ * box.diagonal();
+    curve_errors_[index_of(id)] = error;
+    PatchGrids& grids = grids_[index_of(id)];
+    grids = tessellate(mesh.bicubics, [&](const Box&) { return error; });
+
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_GRID);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+    void* points = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           sizeof(Vec3), grids.points.size());
+    void* cells = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID,
+                                          sizeof(RTCGrid), grids.grids.size());
+    check_device("allocating points of curved surfaces");
+    std::memcpy(points, grids.points.data(), grids.points.size() * sizeof(Vec3));
+    for (std::size_t i = 0; i < grids.grids.size(); ++i) {
+        const PatchGrid& grid = grids.grids[i];
+        static_cast<RTCGrid*>(cells)[i] = {grid.first, grid.columns + 1U,
+                                           static_cast<unsigned short>(grid.columns + 1),
+                                           static_cast<unsigned short>(grid.rows + 1)};
+    }
+    grids.points = {};  // Embree has them now
+    attach(mesh_scene, geometry, mesh, scene, kBicubics);
+}
+
+void EmbreeScene::attach(RTCScene mesh_scene, RTCGeometry geometry, const Mesh& mesh,
+                         const Scene& scene, GeometryKind kind) {
     if (any_see_through(mesh, scene)) {
         any_filter_ = true;
         rtcSetGeometryIntersectFilterFunction(geometry, see_through_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, see_through_filter);
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(mesh_scene, geometry, quads ? 0 : 1);
+    rtcAttachGeometryByID(mesh_scene, geometry, kind);
     rtcReleaseGeometry(geometry);
 }
 
@@ -192,6 +242,7 @@ void EmbreeScene::place(const Scene& scene, std::size_t object) {
     Instance& instance = objects_[object];
     const Mat4& m = scene.objects[object].to_world;
     instance.normal_matrix = scaled_normal_matrix(m);
+    instance.curve_error = curve_errors_[instance.mesh] * largest_stretch(m);
     rtcSetGeometryTransform(instance.geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m[0][0]);
     rtcCommitGeometry(instance.geometry);
 

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "scene/surface.h"
+#include "scene/tessellate.h"
 
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace chiaro {
@@ -14,19 +17,22 @@ namespace chiaro {
 /// A hit as Embree tells it.
 struct RawHit {
     std::uint32_t object;
-    std::uint32_t geometry;   // of the object's mesh: 0 quads, 1 triangles
+    std::uint32_t geometry;   // of the object's mesh: see GeometryKind
     std::uint32_t primitive;  // of the geometry
     float u, v, t;
     Vec3 normal;  // object space, not of unit length
 
-    bool is_quad() const { return geometry == 0; }
+    bool is_triangle() const { return geometry == 1; }
 };
 
-/// A device, one scene a mesh and one instance an object. The geometry that holds a mesh's quads
-/// has id 0, its triangles 1; the instance of an object has the object's index.
+/// Ids of the geometries of a mesh.
+enum GeometryKind : std::uint32_t { kQuads = 0, kTriangles = 1, kBicubics = 2 };
+
+/// A device, one scene a mesh and one instance an object, whose index the instance has. Bicubic
+/// patches are grids of triangles, made once, within a tolerance of their mesh's size.
 class EmbreeScene {
 public:
-    EmbreeScene(const Scene& scene, int threads);
+    EmbreeScene(const Scene& scene, int threads, float curve_tolerance);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -34,7 +40,7 @@ public:
     RTCScene top() const { return top_; }
 
     SurfacePoint point_of(const RawHit& hit) const {
-        const std::uint32_t first = hit.is_quad() ? 0 : objects_[hit.object].quad_count;
+        const std::uint32_t first = objects_[hit.object].first_of[hit.geometry];
         return {static_cast<ObjectId>(hit.object), first + hit.primitive,
                 std::clamp(hit.u, 0.0f, 1.0f), std::clamp(hit.v, 0.0f, 1.0f)};
     }
@@ -49,12 +55,22 @@ public:
         RTCGeometry geometry = nullptr;  // null: the object shows nothing
         Mat3 normal_matrix = Mat3(1);
         std::size_t mesh = 0;
-        const Primitive* primitives = nullptr;  // of the mesh
-        std::uint32_t quad_count = 0;
+        const Primitive* primitives = nullptr;       // of the mesh
+        std::array<std::uint32_t, 3> first_of = {};  // primitive, by GeometryKind
         float extent = 0;
+        float curve_error = 0;  // how far bicubic patches' triangles may be off them, world space
         bool any_curved = false;
     };
     const Instance& instance(std::uint32_t object) const { return objects_[object]; }
+    /// Of a hit within the quad, or the triangle, that holds it: cells of bicubic patches are
+    /// quads.
+    std::array<float, 2> place_in_cell(const RawHit& hit) const {
+        if (hit.geometry != kBicubics) return {hit.u, hit.v};
+        const PatchGrid& grid = grids_[objects_[hit.object].mesh].grids[hit.primitive];
+        const float u = hit.u * grid.columns, v = hit.v * grid.rows;
+        return {u - std::floor(u), v - std::floor(v)};
+    }
+    float curve_error(std::uint32_t object) const { return objects_[object].curve_error; }
     /// True if the primitive's normals are its geometric one everywhere, or absent.
     bool flat(const Instance& of, std::uint32_t primitive) const {
         return !of.any_curved || !curved_[of.mesh][primitive];
@@ -71,8 +87,11 @@ private:
     RTCSceneFlags scene_flags() const;
     void build_mesh(MeshId mesh, const Scene& scene);
     void release();
-    void attach(RTCScene mesh_scene, RTCBuffer positions, const Mesh& mesh, const Scene& scene,
-                bool quads);
+    void attach_polygons(RTCScene mesh_scene, RTCBuffer positions, const Mesh& mesh,
+                         const Scene& scene, GeometryKind kind);
+    void attach_bicubics(RTCScene mesh_scene, MeshId mesh, const Scene& scene);
+    void attach(RTCScene mesh_scene, RTCGeometry geometry, const Mesh& mesh, const Scene& scene,
+                GeometryKind kind);
     void place(const Scene& scene, std::size_t object);
     void check_device(const char* what) const;
 
@@ -81,6 +100,9 @@ private:
     RTCDevice device_ = nullptr;
     RTCScene top_ = nullptr;
     std::vector<RTCScene> meshes_;
+    std::vector<PatchGrids> grids_;          // by mesh
+    float curve_tolerance_;                  // of a mesh's size
+    std::vector<float> curve_errors_;        // by mesh, object space
     std::vector<std::vector<bool>> curved_;  // by mesh, by primitive; empty: all are flat
     std::vector<Instance> objects_;
     bool any_single_sided_ = false;

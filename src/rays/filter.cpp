@@ -38,9 +38,10 @@ RawHit hit_of(const RTCFilterFunctionNArguments* arguments, unsigned i) {
             {RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i)}};
 }
 
-bool on_seam(const RawHit& hit) {
-    const float u = hit.u, v = hit.v;
-    const float beyond = hit.is_quad() ? std::min({1 - u, 1 - v, std::abs(1 - u - v)}) : 1 - u - v;
+bool on_seam(const PacketContext& context, const RawHit& hit) {
+    const auto [u, v] = context.embree_scene->place_in_cell(hit);
+    const float beyond =
+        hit.is_triangle() ? 1 - u - v : std::min({1 - u, 1 - v, std::abs(1 - u - v)});
     return std::min({u, v, beyond}) < kSeamWidth;
 }
 
@@ -59,10 +60,10 @@ bool met_before(SeamsMet& seams, const RawHit& hit) {
     return false;
 }
 
-bool met_before(const LayersMet& layers, const RawHit& hit) {
+bool met_before(const PacketContext& context, const LayersMet& layers, const RawHit& hit) {
     const auto end = layers.hits.begin() + layers.count;
     return std::any_of(layers.hits.begin(), end, [&](const RawHit& other) {
-        return other.object == hit.object && same_place(hit.t, other.t) && on_seam(other);
+        return other.object == hit.object && same_place(hit.t, other.t) && on_seam(context, other);
     });
 }
 
@@ -103,13 +104,14 @@ bool passes(const PacketContext& context, const RawHit& hit, std::uint32_t lane)
     if (context.kind == FilterKind::through) {
         const Rgb left = (1 - alpha) + alpha * straight_on(context, hit, point, ray.direction);
         if (!(max_component(left) > 0)) return false;
-        if (!on_seam(hit) || !met_before(context.seams[lane], hit)) context.through[lane] *= left;
+        if (!on_seam(context, hit) || !met_before(context.seams[lane], hit))
+            context.through[lane] *= left;
         return true;
     }
     if (alpha >= 1) return false;
     if (context.kind == FilterKind::chance)
         return ray_number(ray, hit.object, point.primitive) >= alpha;
-    if (!on_seam(hit) || !met_before(context.layers[lane], hit))
+    if (!on_seam(context, hit) || !met_before(context, context.layers[lane], hit))
         add_layer(context.layers[lane], hit);
     return true;
 }

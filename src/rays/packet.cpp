@@ -27,6 +27,7 @@ Number offset_of_hit(const Vector& origin, const Vector& direction, Number t, Nu
 // What hits need of the objects that they are on; of a lane without one, the first object's.
 struct ObjectsMet {
     alignas(32) float normal_x[kLanes], normal_y[kLanes], normal_z[kLanes], extent[kLanes];
+    alignas(32) float curve_error[kLanes];
 };
 
 void look_up(const EmbreeScene& scene, const RTCHit16& found, std::size_t lane, std::size_t to,
@@ -39,9 +40,9 @@ void look_up(const EmbreeScene& scene, const RTCHit16& found, std::size_t lane, 
     met.normal_y[to] = normal.y;
     met.normal_z[to] = normal.z;
     met.extent[to] = instance.extent;
-    const std::uint32_t before = found.geomID[lane] == 0 ? 0 : instance.quad_count;
+    met.curve_error[to] = found.geomID[lane] == kBicubics ? instance.curve_error : 0;
     hit.point.object = static_cast<ObjectId>(object);
-    hit.point.primitive = before + found.primID[lane];
+    hit.point.primitive = instance.first_of[found.geomID[lane]] + found.primID[lane];
     hit.flat = scene.flat(instance, hit.point.primitive);
     // Whoever shades asks for its material next, and it is far away in large scenes.
     _mm_prefetch(reinterpret_cast<const char*>(instance.primitives + hit.point.primitive),
@@ -66,7 +67,8 @@ void make_eight_hits(const EmbreeScene& scene, const RTCRayHit16& packet, std::s
     const unsigned trusted = ((squared > Float8(1e-30f)) & (squared < Float8(1e30f))).lanes();
     const Vec3x8 unit = (Float8(1) / sqrt(squared)) * normal;
     const unsigned front = (dot(unit, direction) < Float8(0)).lanes();
-    const Float8 offset = offset_of_hit(origin, direction, t, part(met.extent, 0));
+    const Float8 offset =
+        offset_of_hit(origin, direction, t, part(met.extent, 0)) + part(met.curve_error, 0);
 
     alignas(32) float rows[4][kLanes];
     unit.x.store(rows[0]);
@@ -152,6 +154,7 @@ Hit make_hit(const EmbreeScene& scene, const RawHit& raw, const Ray& ray) {
     hit.front = glm::dot(hit.normal, ray.direction) < 0;
     hit.flat = scene.flat(scene.instance(raw.object), hit.point.primitive);
     hit.offset = offset_of_hit(ray.origin, ray.direction, raw.t, scene.extent(raw.object));
+    if (raw.geometry == kBicubics) hit.offset += scene.curve_error(raw.object);
     return hit;
 }
 

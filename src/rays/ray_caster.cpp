@@ -43,8 +43,8 @@ void intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, PacketCon
 
 }  // namespace
 
-RayCaster::RayCaster(const Scene& scene, int threads)
-    : scene_(&scene), embree_(new Embree{EmbreeScene(scene, threads)}) {}
+RayCaster::RayCaster(const Scene& scene, int threads, float curve_tolerance)
+    : scene_(&scene), embree_(new Embree{EmbreeScene(scene, threads, curve_tolerance)}) {}
 RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
@@ -131,7 +131,8 @@ float RayCaster::offset(Vec3 position) {
 }
 
 float RayCaster::offset(Vec3 position, ObjectId object) const {
-    return offset_at(position, embree_->scene.extent(static_cast<std::uint32_t>(object)));
+    const auto id = static_cast<std::uint32_t>(object);
+    return offset_at(position, embree_->scene.extent(id)) + embree_->scene.curve_error(id);
 }
 
 }  // namespace chiaro

@@ -38,13 +38,18 @@ struct LayerHit {
 /// that stops the ray, is left out.
 inline constexpr std::uint32_t kMostLayers = 32;
 
-/// The scene made ready for rays: one instance an object, quads as quads.
+/// How far bicubic patches, as rays see them, may be from the truth: this part of the size of their
+/// mesh.
+inline constexpr float kCurveTolerance = 1.0f / 4000;
+
+/// The scene made ready for rays: one instance an object, quads as quads, bicubic patches as
+/// triangles made once, so that no look from elsewhere changes what light meets.
 ///
 /// Thread: const calls from any number of threads. Keeps a reference to the scene, which must
 /// outlive it; set_transform() follows a moved object without touching its geometry.
 class RayCaster {
 public:
-    RayCaster(const Scene& scene, int threads);
+    RayCaster(const Scene& scene, int threads, float curve_tolerance = kCurveTolerance);
     ~RayCaster();
     RayCaster(RayCaster&&) noexcept;
     RayCaster& operator=(RayCaster&&) noexcept;

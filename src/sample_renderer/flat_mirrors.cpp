@@ -25,7 +25,8 @@ std::vector<FlatMirror> find_flat_mirrors(const Scene& scene) {
         if (object.mesh == MeshId::none) continue;
         const Mesh& mesh = scene.mesh_of(object);
         const auto id = static_cast<ObjectId>(o);
-        for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
+        const auto flat_from = static_cast<std::uint32_t>(mesh.bicubics.size());
+        for (std::uint32_t p = flat_from; p < mesh.primitives.size(); ++p) {
             const Primitive& primitive = mesh.primitives[p];
             if (scene.material(primitive.material).gloss.model == GlossModel::none) continue;
             const auto corner = [&](int c) {

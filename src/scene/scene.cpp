@@ -1,9 +1,11 @@
 #include "scene/scene.h"
 
 #include "base/error.h"
+#include "scene/bicubic_mesh.h"
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 namespace chiaro {
 namespace {
@@ -79,8 +81,13 @@ void check_mesh(const Scene& scene, const Mesh& mesh) {
     check(one_a_point(mesh.colors), "scene: a mesh needs a colour for each point, or none");
     for (const Vec3 p : mesh.positions) check(is_finite(p), "scene: a point is not finite");
     for (const Vec3 n : mesh.normals) check(is_finite(n), "scene: a normal is not finite");
+    for (const BicubicPatch& patch : mesh.bicubics)
+        for (const Vec4& p : patch.points)
+            check(is_finite(Vec3(p)) && p.w > 0 && p.w < kInfinity,
+                  "scene: a control point is not finite");
 
     check(mesh.quad_count <= mesh.primitives.size(), "scene: quad_count out of range");
+    check(mesh.bicubics.size() <= mesh.quad_count, "scene: bicubic patches come first in a mesh");
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) check_primitive(scene, mesh, i);
 }
 
@@ -140,7 +147,9 @@ Box bounds(const Scene& scene) {
     Box box;
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.mesh_of(object);
-        for (const Primitive& primitive : mesh.primitives)
+        for (const BicubicPatch& patch : mesh.bicubics)
+            box.add(hull(transformed(patch, object.to_world)));
+        for (const Primitive& primitive : std::span(mesh.primitives).subspan(mesh.bicubics.size()))
             for (int i = 0; i < primitive.corner_count(); ++i)
                 box.add(Vec3(object.to_world * Vec4(mesh.positions[primitive.corners[i]], 1)));
     }
@@ -168,9 +177,11 @@ bool has_light(const Scene& scene) {
 }
 
 std::size_t order_primitives(Mesh& mesh) {
-    std::vector<Primitive> quads;
+    std::size_t dropped = settle_bicubics(mesh);
+    const auto first = mesh.primitives.begin() + static_cast<std::ptrdiff_t>(mesh.bicubics.size());
+    std::vector<Primitive> quads(mesh.primitives.begin(), first);  // by their corners
     std::vector<Primitive> triangles;
-    for (const Primitive& primitive : mesh.primitives) {
+    for (const Primitive& primitive : std::span(first, mesh.primitives.end())) {
         for (int i = 0; i < primitive.corner_count(); ++i)
             check(primitive.corners[i] < mesh.positions.size(),
                   "order_primitives: corner out of range");
@@ -178,7 +189,7 @@ std::size_t order_primitives(Mesh& mesh) {
         if (!clean || !has_area(mesh, *clean)) continue;
         (clean->is_quad() ? quads : triangles).push_back(*clean);
     }
-    const std::size_t dropped = mesh.primitives.size() - quads.size() - triangles.size();
+    dropped += mesh.primitives.size() - quads.size() - triangles.size();
     mesh.quad_count = static_cast<std::uint32_t>(quads.size());
     mesh.primitives = std::move(quads);
     mesh.primitives.insert(mesh.primitives.end(), triangles.begin(), triangles.end());

@@ -3,6 +3,7 @@
 
 #include "base/ids.h"
 #include "base/vec.h"
+#include "scene/bicubic.h"
 #include "scene/camera.h"
 #include "scene/environment.h"
 #include "scene/light.h"
@@ -16,8 +17,10 @@
 
 namespace chiaro {
 
-/// A quadrilateral or a triangle of a mesh. A quad is the surface of Embree's map: the triangles
-/// (0, 1, 3) and (2, 3, 1), met along the diagonal 1-3 (scene/surface.h).
+/// A quadrilateral, a triangle or a bicubic patch of a mesh. A quad is the surface of Embree's map:
+/// the triangles (0, 1, 3) and (2, 3, 1), met along the diagonal 1-3 (scene/surface.h). A bicubic
+/// patch is a quad by its corners alone, which stand at (u, v) = (0, 0), (1, 0), (1, 1), (0, 1);
+/// some of them may be in one place (poles).
 struct Primitive {
     static constexpr std::uint32_t kNoCorner = 0xffff'ffff;
     std::array<std::uint32_t, 4> corners;  // points of the mesh, counter-clockwise from the front
@@ -28,7 +31,8 @@ struct Primitive {
 };
 
 /// Geometry in object space, shared by the objects that show it. Optional arrays are empty or have
-/// one entry a point. `quad_count` quads come first in `primitives`, then the triangles.
+/// one entry a point. In `primitives` come first those of the bicubic patches, each at its place in
+/// `bicubics`, then quads, both in `quad_count`, then triangles.
 struct Mesh {
     std::string name;
     std::vector<Vec3> positions;
@@ -37,6 +41,7 @@ struct Mesh {
     std::vector<Vec4> colors;  // linear RGBA that multiplies the base colour
     std::vector<Primitive> primitives;
     std::uint32_t quad_count = 0;
+    std::vector<BicubicPatch> bicubics;
 };
 
 /// A mesh put in its place in the world. What an edit moves, and what a name in an edit names.
@@ -71,9 +76,10 @@ Box bounds(const Scene& scene);
 /// True if anything emits: a punctual light, a primitive of an emissive material, the environment.
 bool has_light(const Scene& scene);
 
-/// Makes primitives ready for use: quads first (stable within the kinds), `quad_count` set,
-/// degenerate primitives (no area, repeated corners) dropped; a quad with two corners in one place
-/// becomes a triangle. Returns how many were dropped.
+/// Makes primitives ready for use: bicubic patches, which must come first, divided where edges
+/// could be confused (settle_bicubics), then quads, then triangles (stable within the kinds),
+/// `quad_count` set, degenerate primitives (no area, repeated corners) dropped; a quad with two
+/// corners in one place becomes a triangle. Returns how many were dropped.
 std::size_t order_primitives(Mesh& mesh);
 
 /// Ends the program if an index or size of the scene is wrong: importers and built-in scenes

@@ -1,6 +1,7 @@
 #include "scene/shapes.h"
 
 #include "base/error.h"
+#include "scene/bicubic_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,12 +85,17 @@ void add_lathe_run(Mesh& mesh, std::span<const Vec2> run, int sides) {
 }  // namespace
 
 void add(Mesh& mesh, const Mesh& part, MaterialId material, const Mat4& placement) {
+    for (std::size_t i = 0; i < part.bicubics.size(); ++i) {
+        CornerUvs uvs;
+        for (int c = 0; c < 4; ++c) uvs[c] = part.uvs[0][part.primitives[i].corners[c]];
+        add_bicubic(mesh, transformed(part.bicubics[i], placement), material, uvs);
+    }
     const auto offset = static_cast<std::uint32_t>(mesh.positions.size());
     const Mat3 rotation(placement);
     for (std::size_t i = 0; i < part.positions.size(); ++i)
         add_point(mesh, Vec3(placement * Vec4(part.positions[i], 1)),
                   glm::normalize(rotation * part.normals[i]), part.uvs[0][i]);
-    for (Primitive primitive : part.primitives) {
+    for (Primitive primitive : std::span(part.primitives).subspan(part.bicubics.size())) {
         for (int i = 0; i < primitive.corner_count(); ++i) primitive.corners[i] += offset;
         primitive.material = material;
         mesh.primitives.push_back(primitive);

@@ -1,5 +1,7 @@
 #include "scene/surface.h"
 
+#include "scene/bicubic_mesh.h"
+
 namespace chiaro {
 namespace {
 
@@ -24,6 +26,14 @@ T blend(const std::vector<T>& values, const Primitive& primitive, const CornerWe
     return w.weights[0] * values[primitive.corners[w.corners[0]]] +
            w.weights[1] * values[primitive.corners[w.corners[1]]] +
            w.weights[2] * values[primitive.corners[w.corners[2]]];
+}
+
+// In object space; along the front side's normal.
+Vec3 front_direction(const Mesh& mesh, const SurfacePoint& point) {
+    if (is_bicubic(mesh, point.primitive))
+        return patch_normal(mesh.bicubics[point.primitive], {point.u, point.v});
+    const Primitive& primitive = mesh.primitives[point.primitive];
+    return front_cross(mesh, primitive, corner_weights(primitive.is_quad(), point.u, point.v));
 }
 
 Vec4 texture_value(const Scene& scene, const TextureUse& use, const Mesh& mesh,
@@ -74,12 +84,13 @@ Mat3 normal_matrix(const Mat4& to_world) {
 Vec3 shading_normal(const Scene& scene, const SurfacePoint& point, Vec3 geometric_normal) {
     const Object& object = scene.objects[index_of(point.object)];
     const Mesh& mesh = scene.mesh_of(object);
-    if (mesh.normals.empty()) return geometric_normal;
+    const bool curved = is_bicubic(mesh, point.primitive);
+    if (!curved && mesh.normals.empty()) return geometric_normal;
 
     const Primitive& primitive = mesh.primitives[point.primitive];
     const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
-    const Vec3 blended = blend(mesh.normals, primitive, w);
-    const Vec3 normal = safe_normalize(normal_matrix(object.to_world) * blended, geometric_normal);
+    const Vec3 smooth = curved ? front_direction(mesh, point) : blend(mesh.normals, primitive, w);
+    const Vec3 normal = safe_normalize(normal_matrix(object.to_world) * smooth, geometric_normal);
     const float side = glm::dot(normal, geometric_normal);
     if (side == 0) return geometric_normal;
     return side < 0 ? -normal : normal;
@@ -88,21 +99,38 @@ Vec3 shading_normal(const Scene& scene, const SurfacePoint& point, Vec3 geometri
 Vec3 surface_position(const Scene& scene, const SurfacePoint& point) {
     const Object& object = scene.objects[index_of(point.object)];
     const Mesh& mesh = scene.mesh_of(object);
+    if (is_bicubic(mesh, point.primitive))
+        return Vec3(object.to_world *
+                    Vec4(patch_position(mesh.bicubics[point.primitive], {point.u, point.v}), 1));
     const Primitive& primitive = mesh.primitives[point.primitive];
     const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
     return Vec3(object.to_world * Vec4(blend(mesh.positions, primitive, w), 1));
+}
+
+SurfaceTangents surface_tangents(const Scene& scene, const SurfacePoint& point) {
+    const Object& object = scene.objects[index_of(point.object)];
+    const Mesh& mesh = scene.mesh_of(object);
+    const Mat3 linear(object.to_world);
+    if (is_bicubic(mesh, point.primitive)) {
+        const PatchPoint p = patch_point(mesh.bicubics[point.primitive], {point.u, point.v});
+        return {linear * p.du, linear * p.dv};
+    }
+    const Primitive& primitive = mesh.primitives[point.primitive];
+    const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
+    const Half half = half_of(mesh, primitive, w);
+    const float sign = w.corners[0] == 2 ? -1.0f : 1.0f;  // past a quad's diagonal
+    return {linear * (sign * (half.b - half.a)), linear * (sign * (half.c - half.a))};
 }
 
 SurfaceGeometry surface_geometry(const Scene& scene, const SurfacePoint& point) {
     const Object& object = scene.objects[index_of(point.object)];
     const Mesh& mesh = scene.mesh_of(object);
     const Primitive& primitive = mesh.primitives[point.primitive];
-    const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
 
     SurfaceGeometry geometry;
     geometry.position = surface_position(scene, point);
     geometry.geometric_normal = safe_normalize(
-        normal_matrix(object.to_world) * front_cross(mesh, primitive, w), Vec3(0, 0, 1));
+        normal_matrix(object.to_world) * front_direction(mesh, point), Vec3(0, 0, 1));
     geometry.shading_normal = shading_normal(scene, point, geometry.geometric_normal);
     geometry.primitive = &primitive;
     geometry.material = &scene.material(primitive.material);
@@ -175,6 +203,18 @@ float primitive_area(const Scene& scene, ObjectId object_id, std::uint32_t primi
     const Mesh& mesh = scene.mesh_of(object);
     const Primitive& primitive = mesh.primitives[primitive_index];
     const Mat3 cofactors = normal_matrix(object.to_world);
+    if (is_bicubic(mesh, primitive_index)) {
+        // By the midpoint rule.
+        constexpr int kAcross = 16;
+        float sum = 0;
+        for (int j = 0; j < kAcross; ++j)
+            for (int i = 0; i < kAcross; ++i) {
+                const Vec2 uv = (Vec2(i, j) + 0.5f) / static_cast<float>(kAcross);
+                const PatchPoint p = patch_point(mesh.bicubics[primitive_index], uv);
+                sum += glm::length(cofactors * glm::cross(p.du, p.dv));
+            }
+        return sum / (kAcross * kAcross);
+    }
     const auto half_area = [&](float u) {
         const CornerWeights w = corner_weights(primitive.is_quad(), u, u);
         return 0.5f * glm::length(cofactors * half_of(mesh, primitive, w).cross());

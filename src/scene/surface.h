@@ -19,9 +19,9 @@ inline Vec3 safe_normalize(Vec3 v, Vec3 otherwise) {
     return scaled * (1.0f / std::sqrt(glm::dot(scaled, scaled)));
 }
 
-/// A place on a surface. A quad is mapped as Embree maps it: u + v <= 1 lies in triangle
-/// (0, 1, 3) at p0 + u (p1 - p0) + v (p3 - p0), the rest in (2, 3, 1). A triangle: u, v are the
-/// barycentric weights of corners 1 and 2.
+/// A place on a surface. A bicubic patch has (u, v) of its own; a quad is mapped as Embree maps it:
+/// u + v <= 1 lies in triangle (0, 1, 3) at p0 + u (p1 - p0) + v (p3 - p0), the rest in (2, 3, 1).
+/// A triangle: u, v are the barycentric weights of corners 1 and 2.
 struct SurfacePoint {
     ObjectId object = ObjectId::none;
     std::uint32_t primitive = 0;  // in the object's mesh
@@ -38,6 +38,7 @@ CornerWeights corner_weights(bool is_quad, float u, float v);
 
 /// Cross product, in object space, of two edges of the triangle that `w` blends, along the front
 /// side's normal. One half of a quad may have no area; the other then speaks for both.
+/// Not of bicubic patches.
 Vec3 front_cross(const Mesh& mesh, const Primitive& primitive, const CornerWeights& w);
 
 /// Geometry at a surface point, in world space. Normals are of unit length, on the front side
@@ -51,6 +52,12 @@ struct SurfaceGeometry {
     const Material* material;
 };
 SurfaceGeometry surface_geometry(const Scene& scene, const SurfacePoint& point);
+
+/// How the position changes with u and with v there (world space).
+struct SurfaceTangents {
+    Vec3 u, v;
+};
+SurfaceTangents surface_tangents(const Scene& scene, const SurfacePoint& point);
 
 /// The position alone (world space).
 Vec3 surface_position(const Scene& scene, const SurfacePoint& point);

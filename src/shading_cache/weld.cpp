@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "scene/bicubic_mesh.h"
 #include "scene/surface.h"
 
 #include <algorithm>
@@ -154,7 +155,8 @@ struct VertexInPlace {
 void weld_place(const Mesh& mesh, std::span<const std::uint32_t> corners,
                 std::vector<VertexInPlace>& known, std::vector<std::uint32_t>& corner_of_vertex,
                 std::vector<std::uint32_t>& vertex_of_corner) {
-    const float cosine = mesh.normals.empty() ? kFlatCosine : kSmoothCosine;
+    const float cosine =
+        mesh.normals.empty() && mesh.bicubics.empty() ? kFlatCosine : kSmoothCosine;
     known.clear();
     for (const std::uint32_t index : corners) {
         const MeshCorner corner = corner_at(mesh, index);
@@ -220,6 +222,8 @@ Weld weld_corners(const Mesh& mesh, int threads) {
 
 Vec3 corner_normal(const Mesh& mesh, MeshCorner corner) {
     const Primitive& p = mesh.primitives[corner.primitive];
+    if (is_bicubic(mesh, corner.primitive))
+        return patch_normal(mesh.bicubics[corner.primitive], patch_corner(corner.corner));
     const Vec3 cross = corner_cross(mesh, p, corner.corner);
     if (mesh.normals.empty()) return safe_normalize(cross, Vec3(0, 0, 1));
     const Vec3 normal = mesh.normals[p.corners[corner.corner]];

@@ -1,0 +1,147 @@
+#include "scene/tessellate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace chiaro {
+namespace {
+
+constexpr int kMostSegments = 256;
+
+// Second derivatives are looked at in so many places across, and trusted up to this factor.
+constexpr int kLooks = 8;
+constexpr float kSafety = 1.2f;
+
+// Segments, a power of two, that keep chords of a curve within `tolerance` where its second
+// derivative is at most `second`: the error is at most second / (8 n^2).
+int segments_for(float second, float tolerance) {
+    const float n = std::sqrt(kSafety * second / (8 * tolerance));
+    int segments = 1;
+    while (segments < kMostSegments && static_cast<float>(segments) < n) segments *= 2;
+    return segments;
+}
+
+Vec3 second_difference(Vec3 before, Vec3 here, Vec3 after, float step) {
+    return (before - 2.0f * here + after) / (step * step);
+}
+
+// Both patches beside an edge see it from the same end, and so to the same bits.
+CubicCurve from_lower_end(const CubicCurve& curve) {
+    const auto key = [](const Vec4& p) { return std::make_tuple(p.x, p.y, p.z, p.w); };
+    const auto here = std::make_tuple(key(curve[0]), key(curve[1]));
+    const auto there = std::make_tuple(key(curve[3]), key(curve[2]));
+    return there < here ? reversed(curve) : curve;
+}
+
+int segments_of(const CubicCurve& curve, const ToleranceIn& tolerance) {
+    const Box box = hull(curve);
+    if (!(box.diagonal() > 0)) return 1;
+    constexpr float kStep = 1.0f / kLooks;
+    float second = 0;
+    for (int k = 0; k < kLooks; ++k) {
+        const float t = kStep * static_cast<float>(k);
+        second =
+            std::max(second, glm::length(second_difference(
+                                 curve_position(curve, t), curve_position(curve, t + kStep / 2),
+                                 curve_position(curve, t + kStep), kStep / 2)));
+    }
+    return segments_for(second, tolerance(box));
+}
+
+// Columns and rows that the inside of a patch needs, by Filip, Magedson and Markot, "Surface
+// algorithms using bounds on derivatives", 1986: the error is at most
+// (|uu| / n^2 + 2 |uv| / (n m) + |vv| / m^2) / 8.
+std::pair<int, int> inside_segments(const BicubicPatch& patch, const ToleranceIn& tolerance) {
+    constexpr float kStep = 1.0f / kLooks, kHalf = kStep / 2;
+    float uu = 0, uv = 0, vv = 0;
+    for (int j = 0; j < kLooks; ++j)
+        for (int i = 0; i < kLooks; ++i) {
+            const Vec2 at = kStep * (Vec2(i, j) + 0.5f);
+            const auto place = [&](float u, float v) {
+                return patch_position(patch, at + kHalf * Vec2(u, v));
+            };
+            const Vec3 here = place(0, 0);
+            uu = std::max(uu,
+                          glm::length(second_difference(place(-1, 0), here, place(1, 0), kHalf)));
+            vv = std::max(vv,
+                          glm::length(second_difference(place(0, -1), here, place(0, 1), kHalf)));
+            const Vec3 twist = place(1, 1) - place(-1, 1) - place(1, -1) + place(-1, -1);
+            uv = std::max(uv, glm::length(twist) / (4 * kHalf * kHalf));
+        }
+    // Half of the error for each direction.
+    const float half = 0.5f * tolerance(hull(patch));
+    return {segments_for(uu + uv, half), segments_for(vv + uv, half)};
+}
+
+// Points of a grid's side, of `count` segments, on the polyline of an edge.
+std::vector<Vec3> points_on_edge(const CubicCurve& edge, int segments, int count) {
+    const CubicCurve curve = from_lower_end(edge);
+    const bool backward = curve != edge;
+    std::vector<Vec3> corners;
+    for (int k = 0; k <= segments; ++k)
+        corners.push_back(
+            curve_position(curve, static_cast<float>(k) / static_cast<float>(segments)));
+    if (backward) std::reverse(corners.begin(), corners.end());
+
+    std::vector<Vec3> points;
+    const int each = count / segments;
+    for (int k = 0; k <= count; ++k) {
+        const int corner = k / each;
+        const float part = static_cast<float>(k % each) / static_cast<float>(each);
+        points.push_back(part == 0 ? corners[corner]
+                                   : glm::mix(corners[corner], corners[corner + 1], part));
+    }
+    return points;
+}
+
+void add_grid(const BicubicPatch& patch, const ToleranceIn& tolerance, PatchGrids& result) {
+    std::array<int, 4> of_edge;
+    for (int side = 0; side < 4; ++side)
+        of_edge[side] = segments_of(from_lower_end(patch_edge(patch, side)), tolerance);
+    const auto [inside_u, inside_v] = inside_segments(patch, tolerance);
+    const int columns = std::max({inside_u, of_edge[0], of_edge[2]});
+    const int rows = std::max({inside_v, of_edge[1], of_edge[3]});
+
+    PatchGrid grid;
+    grid.first = static_cast<std::uint32_t>(result.points.size());
+    grid.columns = static_cast<std::uint16_t>(columns);
+    grid.rows = static_cast<std::uint16_t>(rows);
+    for (int j = 0; j <= rows; ++j)
+        for (int i = 0; i <= columns; ++i)
+            result.points.push_back(
+                patch_position(patch, Vec2(static_cast<float>(i) / static_cast<float>(columns),
+                                           static_cast<float>(j) / static_cast<float>(rows))));
+
+    // Sides 2 and 3 run against u and v.
+    const auto put = [&](int i, int j, Vec3 p) {
+        result.points[grid.first + static_cast<std::uint32_t>(j * (columns + 1) + i)] = p;
+    };
+    for (int side = 0; side < 4; ++side) {
+        const int count = side % 2 == 0 ? columns : rows;
+        const auto points = points_on_edge(patch_edge(patch, side), of_edge[side], count);
+        for (int k = 0; k <= count; ++k) {
+            if (side == 0) put(k, 0, points[k]);
+            if (side == 1) put(columns, k, points[k]);
+            if (side == 2) put(columns - k, rows, points[k]);
+            if (side == 3) put(0, rows - k, points[k]);
+        }
+    }
+    result.grids.push_back(grid);
+}
+
+}  // namespace
+
+std::size_t PatchGrids::triangles() const {
+    std::size_t count = 0;
+    for (const PatchGrid& grid : grids) count += std::size_t{2} * grid.columns * grid.rows;
+    return count;
+}
+
+PatchGrids tessellate(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance) {
+    PatchGrids result;
+    for (const BicubicPatch& patch : patches) add_grid(patch, tolerance, result);
+    return result;
+}
+
+}  // namespace chiaro

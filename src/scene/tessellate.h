@@ -1,0 +1,34 @@
+// Bicubic patches as grids of points whose triangles are as near to them as asked, without gaps
+// between neighbours (3.3).
+#pragma once
+
+#include "scene/bicubic.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace chiaro {
+
+/// One patch: (columns + 1) x (rows + 1) points, row by row along v, evenly spaced in u and v.
+struct PatchGrid {
+    std::uint32_t first = 0;  // of its points
+    std::uint16_t columns = 1, rows = 1;
+};
+struct PatchGrids {
+    std::vector<Vec3> points;      // of all patches, in the patches' space
+    std::vector<PatchGrid> grids;  // by patch
+
+    std::size_t triangles() const;
+};
+
+/// How far from the surface its triangles may be, within a box in the patches' space (above 0).
+using ToleranceIn = std::function<float(const Box&)>;
+
+/// Grids of up to 256 x 256 cells for each patch. An edge is divided by its own curve and the
+/// tolerance along it alone, so that patches on both sides of it agree on its points; a grid that
+/// is finer than its edge has the rest of its points there on straight lines.
+PatchGrids tessellate(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance);
+
+}  // namespace chiaro
