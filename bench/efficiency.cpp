@@ -200,7 +200,7 @@ int run_efficiency(int argc, char** argv) {
     app.add_option("--threads", options.threads);
     CLI11_PARSE(app, argc, argv);
 
-    const Stage stage(open_scene(options), thread_count(options));
+    Stage stage(open_scene(options), thread_count(options));
     const PictureSize size = parse_size(options.size);
     const View view(choose_camera(stage.scene, options), size.width, size.height);
     const auto requests = places(stage, view, settings);

@@ -109,7 +109,7 @@ Image reference(const Stage& stage, std::uint32_t seed) {
 }
 
 // What is glossy is cached from facets of width `cached` on.
-Image picture(const Stage& stage, float cached, double seconds) {
+Image picture(Stage& stage, float cached, double seconds) {
     OpenSides open_sides(stage.scene);
     GatherRenderer renderer(stage.scene, stage.rays, stage.area_lights, &open_sides, 1);
     UpdateSettings settings;
@@ -155,7 +155,7 @@ int run_gloss_border(int argc, char** argv) {
     for (const Thing thing : {Thing::floor, Thing::ball})
         for (const Kind kind : {Kind::metal, Kind::plastic})
             for (const float roughness : {0.15f, 0.2f, 0.25f, 0.3f, 0.4f, 0.6f}) {
-                const Stage stage(make_room(thing, kind, roughness));
+                Stage stage(make_room(thing, kind, roughness));
                 const std::array halves = {reference(stage, 1), reference(stage, 2)};
                 const auto error = [&](float cached) {
                     return psnr(stage, picture(stage, cached, seconds), halves[0], halves[1]);

@@ -117,7 +117,7 @@ Json seconds_by_step(const Timings& timings, const Timings& before = {}) {
 }
 
 Json measure_cache(const Method& method, const Measuring& measuring) {
-    const Stage& stage = measuring.stage;
+    Stage& stage = measuring.stage;
     OpenSides open_sides(stage.scene);
     const auto renderer = make_renderer(method.renderer, stage.scene, stage.rays, stage.area_lights,
                                         &open_sides, stage.threads);

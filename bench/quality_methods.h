@@ -53,7 +53,7 @@ const Method& method_of(const std::string& option);
 
 /// How a method is measured.
 struct Measuring {
-    const Stage& stage;
+    Stage& stage;
     const Reference& reference;
     double seconds, path_seconds;  // of the cache, and of path tracing
 

@@ -135,7 +135,7 @@ int run(int argc, char** argv) {
     const Stopwatch bisecting;
     if (settings.bisect > 0) bisect_edges(scene, bounds(scene).diagonal() / settings.bisect);
     const double bisecting_seconds = bisecting.seconds();
-    const Stage stage(std::move(scene), view, threads);
+    Stage stage(std::move(scene), view, threads);
 
     const Image truth = mean(reference);
     const Measuring measuring = {

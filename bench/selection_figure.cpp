@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
 
     Scene scene = open_scene(options);
     const PictureSize size = parse_size(options.size);
-    const RayCaster rays(scene, 1);
+    RayCaster rays(scene, 1);
     const AreaLights area_lights(scene);
     OpenSides open_sides(scene);
     UpdateSettings settings;

@@ -4,6 +4,7 @@
 #include "apps/open_scene.h"
 #include "apps/output.h"
 #include "base/error.h"
+#include "image_generator/view_curves.h"
 #include "sample_renderer/radiance.h"
 #include "sample_renderer/reference_renderer.h"
 
@@ -24,10 +25,11 @@ int reference_command(const Options& options) {
     const Scene scene = open_scene(options);
     const Camera camera = choose_camera(scene, options);
 
-    const RayCaster rays(scene, threads);
+    RayCaster rays(scene, threads);
+    const View view(camera, size.width, size.height);
+    show_curves(rays, view, threads);
     const AreaLights area_lights(scene);
-    ReferenceRenderer renderer(make_lit_scene(scene, rays, area_lights),
-                               View(camera, size.width, size.height),
+    ReferenceRenderer renderer(make_lit_scene(scene, rays, area_lights), view,
                                {short_seed(options.seed), threads});
 
     catch_interrupts();

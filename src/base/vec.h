@@ -68,6 +68,14 @@ struct Frame {
     Vec3 to_local(Vec3 v) const { return {glm::dot(s, v), glm::dot(t, v), glm::dot(n, v)}; }
 };
 
+/// The factor by which lengths grow at most, or somewhat more.
+inline float largest_stretch(const Mat4& affine) {
+    float squared = 0;
+    for (int column = 0; column < 3; ++column)
+        squared += glm::dot(Vec3(affine[column]), Vec3(affine[column]));
+    return std::sqrt(squared);
+}
+
 inline bool is_finite(Vec3 v) {
     const float sum = v.x + v.y + v.z;
     return sum - sum == 0.0f;

@@ -50,16 +50,6 @@ std::vector<bool> curved_primitives(const Mesh& mesh) {
     return curved;
 }
 
-// The largest factor by which lengths grow, or somewhat more.
-float largest_stretch(const Mat4& to_world) {
-    float sum = 0;
-    for (int column = 0; column < 3; ++column) {
-        const Vec3 c(to_world[column]);
-        sum += glm::dot(c, c);
-    }
-    return std::sqrt(sum);
-}
-
 // Of about one size whatever the object's, so that products with it stay floats.
 Mat3 scaled_normal_matrix(const Mat4& to_world) {
     float largest = 0;
@@ -91,8 +81,15 @@ const char* name_of(RTCError error) {
 
 }  // namespace
 
+void EmbreeScene::set_matrix(RTCGeometry instance, const Mat4& m) {
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m[0][0]);
+    rtcCommitGeometry(instance);
+}
+
 EmbreeScene::EmbreeScene(const Scene& scene, int threads, float curve_tolerance)
-    : arena_(std::clamp(threads, 1, hardware_threads())), curve_tolerance_(curve_tolerance) {
+    : arena_(std::clamp(threads, 1, hardware_threads())),
+      threads_(threads),
+      curve_tolerance_(curve_tolerance) {
     device_ = rtcNewDevice(nullptr);
     if (device_ == nullptr) throw Error("Embree", name_of(rtcGetDeviceError(nullptr)));
     try {
@@ -151,6 +148,7 @@ EmbreeScene::~EmbreeScene() {
 }
 
 void EmbreeScene::release() {
+    stop_showing();
     if (top_ != nullptr) rtcReleaseScene(top_);
     for (RTCScene mesh : meshes_)
         if (mesh != nullptr) rtcReleaseScene(mesh);
@@ -175,7 +173,10 @@ void EmbreeScene::build_mesh(MeshId id, const Scene& scene) {
     if (mesh.quad_count < mesh.primitives.size())
         attach_polygons(mesh_scene, positions, mesh, scene, kTriangles);
     rtcReleaseBuffer(positions);
-    if (!mesh.bicubics.empty()) attach_bicubics(mesh_scene, id, scene);
+    if (!mesh.bicubics.empty()) {
+        make_curves(id, scene);
+        attach_curves(mesh_scene, grids_[index_of(id)], mesh, scene);
+    }
 
     rtcCommitScene(mesh_scene);
     check_device("building a mesh");
@@ -199,33 +200,6 @@ void EmbreeScene::attach_polygons(RTCScene mesh_scene, RTCBuffer positions, cons
     attach(mesh_scene, geometry, mesh, scene, kind);
 }
 
-void EmbreeScene::attach_bicubics(RTCScene mesh_scene, MeshId id, const Scene& scene) {
-    const Mesh& mesh = scene.meshes[index_of(id)];
-    Box box;
-    for (const BicubicPatch& patch : mesh.bicubics) box.add(hull(patch));
-    const float error = curve_tolerance_ * box.diagonal();
-    curve_errors_[index_of(id)] = error;
-    PatchGrids& grids = grids_[index_of(id)];
-    grids = tessellate(mesh.bicubics, [&](const Box&) { return error; });
-
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_GRID);
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
-    void* points = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                           sizeof(Vec3), grids.points.size());
-    void* cells = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID,
-                                          sizeof(RTCGrid), grids.grids.size());
-    check_device("allocating points of curved surfaces");
-    std::memcpy(points, grids.points.data(), grids.points.size() * sizeof(Vec3));
-    for (std::size_t i = 0; i < grids.grids.size(); ++i) {
-        const PatchGrid& grid = grids.grids[i];
-        static_cast<RTCGrid*>(cells)[i] = {grid.first, grid.columns + 1U,
-                                           static_cast<unsigned short>(grid.columns + 1),
-                                           static_cast<unsigned short>(grid.rows + 1)};
-    }
-    grids.points = {};  // Embree has them now
-    attach(mesh_scene, geometry, mesh, scene, kBicubics);
-}
-
 void EmbreeScene::attach(RTCScene mesh_scene, RTCGeometry geometry, const Mesh& mesh,
                          const Scene& scene, GeometryKind kind) {
     if (any_see_through(mesh, scene)) {
@@ -242,9 +216,9 @@ void EmbreeScene::place(const Scene& scene, std::size_t object) {
     Instance& instance = objects_[object];
     const Mat4& m = scene.objects[object].to_world;
     instance.normal_matrix = scaled_normal_matrix(m);
-    instance.curve_error = curve_errors_[instance.mesh] * largest_stretch(m);
-    rtcSetGeometryTransform(instance.geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m[0][0]);
-    rtcCommitGeometry(instance.geometry);
+    // What the eye sees may be off as far on the other side.
+    instance.curve_error = 2 * curve_errors_[instance.mesh] * largest_stretch(m);
+    set_matrix(instance.geometry, m);
 
     // A box round the turned box of the mesh is no smaller than the object.
     RTCBounds box;
@@ -264,7 +238,13 @@ void EmbreeScene::set_transform(const Scene& scene, ObjectId object) {
     check(index_of(object) < objects_.size(), "set_transform: unknown object");
     if (objects_[index_of(object)].geometry == nullptr) return;
     place(scene, index_of(object));
-    arena_.execute([&] { rtcCommitScene(top_); });
+    const Mat4& to_world = scene.objects[index_of(object)].to_world;
+    for (const Shown& shown : shown_)
+        if (shown.object == object) set_matrix(shown.instance, to_world);
+    arena_.execute([&] {
+        rtcCommitScene(top_);
+        if (eye_ != nullptr) rtcCommitScene(eye_);
+    });
     check_device("moving an object");
 }
 

@@ -14,6 +14,8 @@
 
 namespace chiaro {
 
+struct ShownCurves;
+
 /// A hit as Embree tells it.
 struct RawHit {
     std::uint32_t object;
@@ -38,6 +40,8 @@ public:
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     RTCScene top() const { return top_; }
+    /// What rays from the camera meet.
+    RTCScene eye() const { return eye_ != nullptr ? eye_ : top_; }
 
     SurfacePoint point_of(const RawHit& hit) const {
         const std::uint32_t first = objects_[hit.object].first_of[hit.geometry];
@@ -64,12 +68,7 @@ public:
     const Instance& instance(std::uint32_t object) const { return objects_[object]; }
     /// Of a hit within the quad, or the triangle, that holds it: cells of bicubic patches are
     /// quads.
-    std::array<float, 2> place_in_cell(const RawHit& hit) const {
-        if (hit.geometry != kBicubics) return {hit.u, hit.v};
-        const PatchGrid& grid = grids_[objects_[hit.object].mesh].grids[hit.primitive];
-        const float u = hit.u * grid.columns, v = hit.v * grid.rows;
-        return {u - std::floor(u), v - std::floor(v)};
-    }
+    std::array<float, 2> place_in_cell(const RawHit& hit, bool from_eye) const;
     float curve_error(std::uint32_t object) const { return objects_[object].curve_error; }
     /// True if the primitive's normals are its geometric one everywhere, or absent.
     bool flat(const Instance& of, std::uint32_t primitive) const {
@@ -81,6 +80,9 @@ public:
     bool any_filter() const { return any_filter_; }
 
     void set_transform(const Scene& scene, ObjectId object);
+    /// See RayCaster.
+    void show_curves(const Scene& scene, std::vector<ShownCurves> curves);
+    float curve_tolerance(MeshId mesh) const { return curve_errors_[index_of(mesh)]; }
 
 private:
     void build(const Scene& scene);
@@ -89,16 +91,33 @@ private:
     void release();
     void attach_polygons(RTCScene mesh_scene, RTCBuffer positions, const Mesh& mesh,
                          const Scene& scene, GeometryKind kind);
-    void attach_bicubics(RTCScene mesh_scene, MeshId mesh, const Scene& scene);
+    void make_curves(MeshId mesh, const Scene& scene);
+    void attach_curves(RTCScene mesh_scene, PatchGrids& grids, const Mesh& mesh,
+                       const Scene& scene);
     void attach(RTCScene mesh_scene, RTCGeometry geometry, const Mesh& mesh, const Scene& scene,
                 GeometryKind kind);
     void place(const Scene& scene, std::size_t object);
+    static void set_matrix(RTCGeometry instance, const Mat4& to_world);
+
+    // An object as the eye sees it.
+    struct Shown {
+        ObjectId object = ObjectId::none;
+        RTCScene mesh = nullptr;
+        RTCGeometry instance = nullptr;
+        PatchGrids grids = {};
+    };
+    void show(const Scene& scene, ShownCurves& curves);
+    void stop_showing();
+    const Shown* shown_of(std::uint32_t object) const;
     void check_device(const char* what) const;
 
     // Builds run in here. Embree's own `threads` would limit every other loop of the program too.
     tbb::task_arena arena_;
+    int threads_;
     RTCDevice device_ = nullptr;
     RTCScene top_ = nullptr;
+    RTCScene eye_ = nullptr;  // null: the same
+    std::vector<Shown> shown_;
     std::vector<RTCScene> meshes_;
     std::vector<PatchGrids> grids_;          // by mesh
     float curve_tolerance_;                  // of a mesh's size

@@ -39,7 +39,7 @@ RawHit hit_of(const RTCFilterFunctionNArguments* arguments, unsigned i) {
 }
 
 bool on_seam(const PacketContext& context, const RawHit& hit) {
-    const auto [u, v] = context.embree_scene->place_in_cell(hit);
+    const auto [u, v] = context.embree_scene->place_in_cell(hit, context.camera);
     const float beyond =
         hit.is_triangle() ? 1 - u - v : std::min({1 - u, 1 - v, std::abs(1 - u - v)});
     return std::min({u, v, beyond}) < kSeamWidth;

@@ -27,7 +27,8 @@ void intersect_packet(RTCRayHit16& packet, std::span<const Ray> rays, PacketCont
     forget_hits(packet.hit);
     context.rays = rays.data();
     if (context.log != nullptr) write_down(packet.ray, active, false, context, *context.log);
-    rtcIntersect16(active, context.embree_scene->top(), &context.embree, &packet);
+    const EmbreeScene& embree = *context.embree_scene;
+    rtcIntersect16(active, context.camera ? embree.eye() : embree.top(), &context.embree, &packet);
 }
 
 void intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, PacketContext context) {
@@ -124,6 +125,14 @@ void RayCaster::intersect_layers(std::span<const Ray> rays, std::vector<LayerHit
 
 void RayCaster::set_transform(ObjectId object) {
     embree_->scene.set_transform(*scene_, object);
+}
+
+void RayCaster::show_curves(std::vector<ShownCurves> curves) {
+    embree_->scene.show_curves(*scene_, std::move(curves));
+}
+
+float RayCaster::curve_tolerance(MeshId mesh) const {
+    return embree_->scene.curve_tolerance(mesh);
 }
 
 float RayCaster::offset(Vec3 position) {

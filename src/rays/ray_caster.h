@@ -3,6 +3,7 @@
 
 #include "rays/ray_log.h"
 #include "scene/surface.h"
+#include "scene/tessellate.h"
 
 #include <memory>
 #include <optional>
@@ -42,6 +43,12 @@ inline constexpr std::uint32_t kMostLayers = 32;
 /// mesh.
 inline constexpr float kCurveTolerance = 1.0f / 4000;
 
+/// The bicubic patches of one object as the eye sees them (object space).
+struct ShownCurves {
+    ObjectId object;
+    PatchGrids grids;  // by patch
+};
+
 /// The scene made ready for rays: one instance an object, quads as quads, bicubic patches as
 /// triangles made once, so that no look from elsewhere changes what light meets.
 ///
@@ -78,6 +85,13 @@ public:
     /// The object's `to_world` has changed: about 0.05 ms, whatever its size. Not while others
     /// cast.
     void set_transform(ObjectId object);
+
+    /// From now on rays from the camera see the curves of these objects so, and those of all others
+    /// as other rays do. No coarser than these see them. Not while others cast.
+    void show_curves(std::vector<ShownCurves> curves);
+
+    /// How far a mesh's bicubic patches, as rays see them, may be from the truth (object space).
+    float curve_tolerance(MeshId mesh) const;
 
     /// How far to start a ray from a surface so that it does not meet it again, at `position`.
     static float offset(Vec3 position);

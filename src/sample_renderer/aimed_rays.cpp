@@ -10,7 +10,7 @@ float pdf_aimed(const SampledSurfaces& surfaces, const LitPlace& place, Vec3 dir
                 const Hit& hit) {
     const float cosine = std::abs(glm::dot(hit.normal, direction));
     if (!(cosine > 0)) return 0;
-    return surfaces.pdf(place, hit.point.object, hit.point.primitive) * hit.t * hit.t / cosine;
+    return surfaces.pdf(place, hit.point) * hit.t * hit.t / cosine;
 }
 
 void add_aimed_ray(const Aims& aims, const Receiver& receiver, const Sequence& sequence,

@@ -103,7 +103,8 @@ std::optional<Emission> Emitters::from_area(const LitScene& lit, float choice, V
                          .normal = normal,
                          .from = LightSource::area,
                          .object = object,
-                         .index = primitive};
+                         .index = primitive,
+                         .uv = {sample.point.u, sample.point.v}};
     emission.ray = {sample.position + lit.caster.offset(sample.position, object) * normal, w};
     emission.flux = radiance * (local.z / (emission.start * emission.direction));
     return emission;
@@ -165,7 +166,8 @@ std::optional<Emission> Emitters::from_sky(const LitScene& lit, Vec2 place, Vec2
 float Emitters::chosen(const LitScene& lit, const Receiver& place, const Emission& emission) {
     switch (emission.from) {
         case LightSource::area:
-            return lit.area_lights.pdf(lit_place(place), emission.object, emission.index);
+            return lit.area_lights.pdf(
+                lit_place(place), {emission.object, emission.index, emission.uv.x, emission.uv.y});
         case LightSource::lamp:
             return lit.punctual.lamp_chance(lit_place(place), emission.index);
         case LightSource::sun:
@@ -181,10 +183,8 @@ std::optional<LightSample> Emitters::sample_area_light(const LitScene& lit, cons
     const auto view = view_area_light(lit, place, numbers.choice, numbers.spot);
     if (!view) return std::nullopt;
     const AreaLightSample& sample = view->sample;
-    const auto [object, primitive, u, v] = sample.point;
-    const bool both_ways = shines_both_ways(lit.scene, object, primitive);
-    const float walk =
-        chance_of(LightSource::area) * lit.area_lights.pdf_by_power(object, primitive);
+    const bool both_ways = shines_both_ways(lit.scene, sample.point.object, sample.point.primitive);
+    const float walk = chance_of(LightSource::area) * lit.area_lights.pdf_by_power(sample.point);
     const float seen = view->light_cosine / view->squared;  // of the light's area, in solid angle
     return LightSample{
         .shadow_ray = view->shadow_ray,
@@ -240,11 +240,10 @@ std::optional<LightSample> Emitters::sample_sky(const LitScene& lit, const Recei
 
 MetLight Emitters::met(const LitScene& lit, const LitPlace& place, Vec3 direction,
                        const Hit& hit) const {
-    const auto [object, primitive, u, v] = hit.point;
     const float cosine = std::abs(glm::dot(hit.normal, direction));
-    const bool both_ways = shines_both_ways(lit.scene, object, primitive);
-    return {{.walk = chance_of(LightSource::area) * lit.area_lights.pdf_by_power(object, primitive),
-             .chosen = lit.area_lights.pdf(place, object, primitive)},
+    const bool both_ways = shines_both_ways(lit.scene, hit.point.object, hit.point.primitive);
+    return {{.walk = chance_of(LightSource::area) * lit.area_lights.pdf_by_power(hit.point),
+             .chosen = lit.area_lights.pdf(place, hit.point)},
             area_direction_density(cosine, both_ways)};
 }
 

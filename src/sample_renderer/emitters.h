@@ -22,6 +22,7 @@ struct Emission {
     LightSource from = LightSource::lamp;
     ObjectId object = ObjectId::none;  // of an area light
     std::uint32_t index = 0;           // its primitive; of a punctual light, that in Scene::lights
+    Vec2 uv = Vec2(0);                 // on that primitive
 
     /// From infinitely far.
     bool parallel() const { return from == LightSource::sun || from == LightSource::sky; }

@@ -193,7 +193,7 @@ std::optional<LightConnection> connect_environment(const LitScene& lit, const Re
 float pdf_area_light(const LitScene& lit, const LitPlace& from, Vec3 direction, const Hit& hit) {
     const float cosine = std::abs(glm::dot(hit.normal, direction));
     if (!(cosine > 0)) return 0;
-    const float pdf_area = lit.area_lights.pdf(from, hit.point.object, hit.point.primitive);
+    const float pdf_area = lit.area_lights.pdf(from, hit.point);
     return pdf_area * hit.t * hit.t / cosine;
 }
 

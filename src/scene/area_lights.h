@@ -35,17 +35,15 @@ public:
     std::optional<AreaLightSample> sample(const LitPlace& place, float choice, Vec2 spot) const {
         return surfaces_.sample(place, choice, spot);
     }
-    float pdf(const LitPlace& place, ObjectId object, std::uint32_t primitive) const {
-        return surfaces_.pdf(place, object, primitive);
+    float pdf(const LitPlace& place, const SurfacePoint& point) const {
+        return surfaces_.pdf(place, point);
     }
 
     /// Where walks from the lights start: chosen by power.
     AreaLightSample sample_by_power(float choice, Vec2 spot) const {
         return surfaces_.sample_by_weight(choice, spot);
     }
-    float pdf_by_power(ObjectId object, std::uint32_t primitive) const {
-        return surfaces_.pdf_by_weight(object, primitive);
-    }
+    float pdf_by_power(const SurfacePoint& point) const { return surfaces_.pdf_by_weight(point); }
 
 private:
     // Of a light whose radiance does not vary, and that nothing shines through.

@@ -1,6 +1,7 @@
 #include "scene/sampled_surfaces.h"
 
 #include "base/error.h"
+#include "scene/bicubic_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,12 @@ constexpr std::uint32_t kNone = 0xffff'ffff;
 Vec2 square_to_triangle(Vec2 place) {
     const float root = std::sqrt(place.x);
     return {root * (1 - place.y), root * place.y};
+}
+
+// Area for (u, v) at a place of a patch.
+float stretch_at(const BicubicPatch& patch, Vec2 uv) {
+    const PatchPoint p = patch_point(patch, uv);
+    return glm::length(glm::cross(p.du, p.dv));
 }
 
 }  // namespace
@@ -75,6 +82,10 @@ SampledSurfaces::Surface SampledSurfaces::make_surface(const Scene& scene,
 
     Surface surface;
     surface.where = where;
+    if (is_bicubic(mesh, where.primitive)) {
+        surface.curve = add_curve(mesh.bicubics[where.primitive], object.to_world);
+        return surface;
+    }
     surface.quad = primitive.is_quad();
     for (int c = 0; c < primitive.corner_count(); ++c)
         surface.corners[c] = Vec3(object.to_world * Vec4(mesh.positions[primitive.corners[c]], 1));
@@ -91,8 +102,29 @@ SampledSurfaces::Surface SampledSurfaces::make_surface(const Scene& scene,
     return surface;
 }
 
-LightBounds SampledSurfaces::bounds_of(const Surface& surface, bool two_sided, float intensity) {
+std::uint32_t SampledSurfaces::add_curve(const BicubicPatch& patch, const Mat4& to_world) {
+    const BicubicPatch world = transformed(patch, to_world);
+    std::vector<double> areas;
+    for (std::uint32_t j = 0; j < Curve::kAcross; ++j)
+        for (std::uint32_t i = 0; i < Curve::kAcross; ++i) {
+            // Never 0: a cell may have area where its middle has none.
+            const Vec2 middle = (Vec2(i, j) + 0.5f) / static_cast<float>(Curve::kAcross);
+            areas.push_back(stretch_at(world, middle) + 1e-3f * stretch_at(world, Vec2(0.5f)));
+        }
+    curves_.push_back({world, glm::determinant(Mat3(to_world)) < 0, WeightedChoice(areas)});
+    return static_cast<std::uint32_t>(curves_.size() - 1);
+}
+
+LightBounds SampledSurfaces::bounds_of(const Surface& surface, bool two_sided,
+                                       float intensity) const {
     LightBounds first;
+    if (surface.curve != kFlat) {
+        first.box = hull(curves_[surface.curve].patch);
+        first.cone = kPi;  // it may face anywhere
+        first.two_sided = two_sided;
+        first.intensity = intensity;
+        return first;
+    }
     for (int c = 0; c < (surface.quad ? 4 : 3); ++c) first.box.add(surface.corners[c]);
     first.axis = surface.normals[0];
     first.two_sided = two_sided;
@@ -133,8 +165,41 @@ inline void SampledSurfaces::place_on(std::uint32_t surface, float probability, 
                                       SurfaceSample& result) const {
     result.point = surfaces_[surface].where;
     result.surface = surface;
+    if (const std::uint32_t curve = surfaces_[surface].curve; curve != kFlat) {
+        place_on(curves_[curve], spot, result);
+        result.pdf_area = probability * density_on(surface, result.point);
+        return;
+    }
     result.pdf_area = probability * surfaces_[surface].inverse_area;
     place_on(surfaces_[surface], spot, result);
+}
+
+// Evenly over (u, v) within a cell. Where the patch is no surface, as at poles, the density is
+// infinite and the sample worth nothing.
+void SampledSurfaces::place_on(const Curve& curve, Vec2 spot, SurfaceSample& result) {
+    const WeightedChoice::Choice cell = curve.cells.choose(spot.x);
+    const auto column = static_cast<float>(cell.index % Curve::kAcross);
+    const auto row = static_cast<float>(cell.index / Curve::kAcross);
+    const Vec2 uv = (Vec2(column + cell.rest, row + spot.y)) / static_cast<float>(Curve::kAcross);
+    result.point.u = uv.x;
+    result.point.v = uv.y;
+    result.position = patch_position(curve.patch, uv);
+    const Vec3 normal = patch_normal(curve.patch, uv);
+    result.normal = curve.mirrored ? -normal : normal;
+}
+
+// Over area at a point, once its surface is chosen.
+float SampledSurfaces::density_on(std::uint32_t surface, const SurfacePoint& point) const {
+    const Surface& s = surfaces_[surface];
+    if (s.curve == kFlat) return s.inverse_area;
+    const Curve& curve = curves_[s.curve];
+    const auto cell_of = [](float x) {
+        return std::min(static_cast<std::uint32_t>(x * Curve::kAcross), Curve::kAcross - 1);
+    };
+    const float chance =
+        curve.cells.probability(cell_of(point.v) * Curve::kAcross + cell_of(point.u));
+    constexpr float kCells = Curve::kAcross * Curve::kAcross;
+    return kCells * chance / std::max(stretch_at(curve.patch, {point.u, point.v}), 1e-30f);
 }
 
 // Evenly over the surface's area.
@@ -174,14 +239,14 @@ std::optional<std::uint32_t> SampledSurfaces::surface_at(ObjectId object,
     return surfaces[primitive];
 }
 
-float SampledSurfaces::pdf(const LitPlace& place, ObjectId object, std::uint32_t primitive) const {
-    const auto surface = surface_at(object, primitive);
-    return surface ? clusters_.pdf(place, *surface) * surfaces_[*surface].inverse_area : 0.0f;
+float SampledSurfaces::pdf(const LitPlace& place, const SurfacePoint& point) const {
+    const auto surface = surface_at(point.object, point.primitive);
+    return surface ? clusters_.pdf(place, *surface) * density_on(*surface, point) : 0.0f;
 }
 
-float SampledSurfaces::pdf_by_weight(ObjectId object, std::uint32_t primitive) const {
-    const auto surface = surface_at(object, primitive);
-    return surface ? by_weight_.probability(*surface) * surfaces_[*surface].inverse_area : 0.0f;
+float SampledSurfaces::pdf_by_weight(const SurfacePoint& point) const {
+    const auto surface = surface_at(point.object, point.primitive);
+    return surface ? by_weight_.probability(*surface) * density_on(*surface, point) : 0.0f;
 }
 
 }  // namespace chiaro

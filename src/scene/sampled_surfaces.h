@@ -28,7 +28,7 @@ struct SurfaceWeight {
 };
 
 /// Primitives of a scene in world space, chosen by what they may bring to a place
-/// (scene/light_clusters.h), then uniformly by area.
+/// (scene/light_clusters.h), then uniformly by area, or nearly so on bicubic patches.
 ///
 /// Thread: const calls from any number of threads. Describes the scene as it was when built, so
 /// build anew when places or weights change.
@@ -50,13 +50,13 @@ public:
     /// come to `place`; nothing if none was found, which is worth nothing. Checks: not empty().
     std::optional<SurfaceSample> sample(const LitPlace& place, float choice, Vec2 spot) const;
 
-    /// Density over area with which sample() gives points of this primitive; 0 if it is none of the
-    /// surfaces, or light never comes from it to `place`.
-    float pdf(const LitPlace& place, ObjectId object, std::uint32_t primitive) const;
+    /// Density over area with which sample() gives this point; 0 if it is on none of the surfaces,
+    /// or light never comes from it to `place`.
+    float pdf(const LitPlace& place, const SurfacePoint& point) const;
 
     /// As sample() and pdf(), whatever the place: chosen by weight x area x sides.
     SurfaceSample sample_by_weight(float choice, Vec2 spot) const;
-    float pdf_by_weight(ObjectId object, std::uint32_t primitive) const;
+    float pdf_by_weight(const SurfacePoint& point) const;
 
 private:
     struct Surface {
@@ -67,18 +67,32 @@ private:
         float first_half = 1;  // share of the area in the half (0, 1, 3)
         float inverse_area = 0;
         bool parallelogram = false;  // (u, v) itself is uniform in area
+        std::uint32_t curve = kFlat;
+    };
+    static constexpr std::uint32_t kFlat = 0xffff'ffff;
+
+    // A bicubic patch in world space, in cells even in (u, v) that are chosen by their area.
+    struct Curve {
+        static constexpr std::uint32_t kAcross = 8;
+        BicubicPatch patch;
+        bool mirrored;  // its front is where du x dv does not point
+        WeightedChoice cells;
     };
 
-    static Surface make_surface(const Scene& scene, const SurfacePoint& where, float area);
-    static LightBounds bounds_of(const Surface& surface, bool two_sided, float intensity);
+    Surface make_surface(const Scene& scene, const SurfacePoint& where, float area);
+    std::uint32_t add_curve(const BicubicPatch& patch, const Mat4& to_world);
+    float density_on(std::uint32_t surface, const SurfacePoint& point) const;
+    LightBounds bounds_of(const Surface& surface, bool two_sided, float intensity) const;
     std::optional<std::uint32_t> surface_at(ObjectId object, std::uint32_t primitive) const;
     void place_on(std::uint32_t surface, float probability, Vec2 spot, SurfaceSample& result) const;
     static void place_on(const Surface& surface, Vec2 spot, SurfaceSample& result);
+    static void place_on(const Curve& curve, Vec2 spot, SurfaceSample& result);
     std::vector<LightBounds> add_object(const Scene& scene, ObjectId object,
                                         const WeightOf& weight_of);
 
     double total_weight_ = 0;
     std::vector<Surface> surfaces_;
+    std::vector<Curve> curves_;
     LightClusters clusters_;
     WeightedChoice by_weight_;
     std::vector<std::vector<std::uint32_t>>

@@ -1,5 +1,7 @@
 #include "scene/tessellate.h"
 
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -95,39 +97,44 @@ std::vector<Vec3> points_on_edge(const CubicCurve& edge, int segments, int count
     return points;
 }
 
-void add_grid(const BicubicPatch& patch, const ToleranceIn& tolerance, PatchGrids& result) {
+// How a patch is divided: its edges, and the grid that meets all of them.
+struct Plan {
     std::array<int, 4> of_edge;
-    for (int side = 0; side < 4; ++side)
-        of_edge[side] = segments_of(from_lower_end(patch_edge(patch, side)), tolerance);
-    const auto [inside_u, inside_v] = inside_segments(patch, tolerance);
-    const int columns = std::max({inside_u, of_edge[0], of_edge[2]});
-    const int rows = std::max({inside_v, of_edge[1], of_edge[3]});
-
     PatchGrid grid;
-    grid.first = static_cast<std::uint32_t>(result.points.size());
-    grid.columns = static_cast<std::uint16_t>(columns);
-    grid.rows = static_cast<std::uint16_t>(rows);
+};
+
+Plan plan_grid(const BicubicPatch& patch, const ToleranceIn& tolerance) {
+    Plan plan;
+    for (int side = 0; side < 4; ++side)
+        plan.of_edge[side] = segments_of(from_lower_end(patch_edge(patch, side)), tolerance);
+    const auto [inside_u, inside_v] = inside_segments(patch, tolerance);
+    plan.grid.columns =
+        static_cast<std::uint16_t>(std::max({inside_u, plan.of_edge[0], plan.of_edge[2]}));
+    plan.grid.rows =
+        static_cast<std::uint16_t>(std::max({inside_v, plan.of_edge[1], plan.of_edge[3]}));
+    return plan;
+}
+
+void fill_grid(const BicubicPatch& patch, const Plan& plan, std::span<Vec3> points) {
+    const int columns = plan.grid.columns, rows = plan.grid.rows;
+    const auto at = [&](int i, int j) -> Vec3& { return points[j * (columns + 1) + i]; };
     for (int j = 0; j <= rows; ++j)
         for (int i = 0; i <= columns; ++i)
-            result.points.push_back(
+            at(i, j) =
                 patch_position(patch, Vec2(static_cast<float>(i) / static_cast<float>(columns),
-                                           static_cast<float>(j) / static_cast<float>(rows))));
+                                           static_cast<float>(j) / static_cast<float>(rows)));
 
     // Sides 2 and 3 run against u and v.
-    const auto put = [&](int i, int j, Vec3 p) {
-        result.points[grid.first + static_cast<std::uint32_t>(j * (columns + 1) + i)] = p;
-    };
     for (int side = 0; side < 4; ++side) {
         const int count = side % 2 == 0 ? columns : rows;
-        const auto points = points_on_edge(patch_edge(patch, side), of_edge[side], count);
+        const auto edge = points_on_edge(patch_edge(patch, side), plan.of_edge[side], count);
         for (int k = 0; k <= count; ++k) {
-            if (side == 0) put(k, 0, points[k]);
-            if (side == 1) put(columns, k, points[k]);
-            if (side == 2) put(columns - k, rows, points[k]);
-            if (side == 3) put(0, rows - k, points[k]);
+            if (side == 0) at(k, 0) = edge[k];
+            if (side == 1) at(columns, k) = edge[k];
+            if (side == 2) at(columns - k, rows) = edge[k];
+            if (side == 3) at(0, rows - k) = edge[k];
         }
     }
-    result.grids.push_back(grid);
 }
 
 }  // namespace
@@ -138,9 +145,24 @@ std::size_t PatchGrids::triangles() const {
     return count;
 }
 
-PatchGrids tessellate(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance) {
+PatchGrids tessellate(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance,
+                      int threads) {
+    std::vector<Plan> plans(patches.size());
+    parallel_for(threads, patches.size(),
+                 [&](std::size_t i) { plans[i] = plan_grid(patches[i], tolerance); });
     PatchGrids result;
-    for (const BicubicPatch& patch : patches) add_grid(patch, tolerance, result);
+    std::size_t points = 0;
+    for (Plan& plan : plans) {
+        plan.grid.first = static_cast<std::uint32_t>(points);
+        points += plan.grid.points();
+        result.grids.push_back(plan.grid);
+    }
+    result.points.resize(points);
+    parallel_for(threads, patches.size(), [&](std::size_t i) {
+        const PatchGrid& grid = plans[i].grid;
+        fill_grid(patches[i], plans[i],
+                  std::span(result.points).subspan(grid.first, grid.points()));
+    });
     return result;
 }
 

@@ -15,6 +15,8 @@ namespace chiaro {
 struct PatchGrid {
     std::uint32_t first = 0;  // of its points
     std::uint16_t columns = 1, rows = 1;
+
+    std::size_t points() const { return (columns + std::size_t{1}) * (rows + std::size_t{1}); }
 };
 struct PatchGrids {
     std::vector<Vec3> points;      // of all patches, in the patches' space
@@ -24,11 +26,13 @@ struct PatchGrids {
 };
 
 /// How far from the surface its triangles may be, within a box in the patches' space (above 0).
+/// Thread: called from several at once.
 using ToleranceIn = std::function<float(const Box&)>;
 
 /// Grids of up to 256 x 256 cells for each patch. An edge is divided by its own curve and the
 /// tolerance along it alone, so that patches on both sides of it agree on its points; a grid that
 /// is finer than its edge has the rest of its points there on straight lines.
-PatchGrids tessellate(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance);
+PatchGrids tessellate(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance,
+                      int threads);
 
 }  // namespace chiaro

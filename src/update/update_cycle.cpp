@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/tone_map.h"
+#include "image_generator/view_curves.h"
 #include "scene/bsdf.h"
 
 #include <algorithm>
@@ -83,7 +84,7 @@ SplitRule split_rule(Scheme scheme) {
 
 }  // namespace
 
-UpdateCycle::UpdateCycle(const RayCaster& rays, const MeshGraphs& graphs, SampleRenderer& renderer,
+UpdateCycle::UpdateCycle(RayCaster& rays, const MeshGraphs& graphs, SampleRenderer& renderer,
                          OpenSides& open_sides, const UpdateSettings& settings)
     : rays_(&rays),
       renderer_(&renderer),
@@ -116,6 +117,10 @@ void UpdateCycle::run() {
     const auto start_time = std::chrono::steady_clock::now();
     switch (stage_) {
         case Stage::new_view: {
+            {
+                const StepTimer timer(statistics_.timings, Step::tessellation);
+                show_curves(*rays_, *view_, settings_.threads);
+            }
             make_map(ViewQuality::one_ray);
             const double seconds_of_map = seconds_since(start_time);
             restart_polish();

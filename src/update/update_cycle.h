@@ -55,7 +55,7 @@ class UpdateCycle {
 public:
     /// `graphs` are of the meshes of `rays`' scene; the paper's scheme wants none coarser than
     /// these.
-    UpdateCycle(const RayCaster& rays, const MeshGraphs& graphs, SampleRenderer& renderer,
+    UpdateCycle(RayCaster& rays, const MeshGraphs& graphs, SampleRenderer& renderer,
                 OpenSides& open_sides, const UpdateSettings& settings);
 
     /// Looks from elsewhere, from the next cycle on. Diffuse shading stays: it does not depend on
@@ -126,7 +126,7 @@ private:
     double work_seconds(const ShadeWork& work) const;
     double seconds_budget() const;
 
-    const RayCaster* rays_;
+    RayCaster* rays_;
     SampleRenderer* renderer_;
     OpenSides* open_sides_;
     UpdateSettings settings_;

@@ -39,5 +39,79 @@ TEST(CurvedRays, MeetTheSurface) {
     }
 }
 
+// A closed surface lets no ray out, whichever way its patches are divided for the eye: 200,000 rays
+// from inside of a sphere to where patches of two and of many segments meet.
+TEST(CurvedRays, NoneSlipsThrough) {
+    const Scene scene = one_object(curved_sphere(2));
+    RayCaster caster(scene, 1, 0.02f);
+    const float coarse = caster.curve_tolerance(MeshId{0});
+    const auto finer_below = [&](const Box& box) {
+        return box.centre().y < 0 ? 1e-3f * coarse : coarse;
+    };
+    for (const bool shown : {false, true}) {
+        if (shown)
+            caster.show_curves(
+                {{ObjectId{0}, tessellate(scene.meshes[0].bicubics, finer_below, 1)}});
+        Rng rng(9);
+        std::vector<Ray> rays(100'000);
+        for (Ray& ray : rays) {
+            const SurfacePoint edge = {ObjectId{0}, rng.below(8), rng.uniform(),
+                                       static_cast<float>(rng.below(2))};
+            const Vec3 to = surface_position(scene, edge) + 0.05f * tiny::random_direction(rng);
+            const Vec3 from = rng.uniform() * tiny::random_direction(rng);
+            ray = {from, glm::normalize(to - from)};
+        }
+        std::vector<Hit> hits(rays.size());
+        caster.intersect(rays, hits, RayKind::camera);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_TRUE(hits[i]) << i;
+            EXPECT_FALSE(hits[i].front);
+        }
+    }
+}
+
+// What the eye is shown changes nothing for other rays, to the bit.
+TEST(CurvedRays, WhatIsShownChangesNoLight) {
+    const Scene scene = one_object(curved_sphere(2));
+    RayCaster caster(scene, 1);
+    const std::vector<Ray> rays = tiny::random_rays(2000, Vec3(0.5f, 0.2f, 0));
+    std::vector<Hit> before(rays.size()), after(rays.size()), seen(rays.size());
+    caster.intersect(rays, before);
+    const float fine = 0.05f * caster.curve_tolerance(MeshId{0});
+    caster.show_curves(
+        {{ObjectId{0}, tessellate(
+                           scene.meshes[0].bicubics, [&](const Box&) { return fine; }, 1)}});
+    caster.intersect(rays, after);
+    caster.intersect(rays, seen, RayKind::camera);
+    float worst = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        EXPECT_EQ(before[i].t, after[i].t);
+        EXPECT_EQ(before[i].point.u, after[i].point.u);
+        const Vec3 met = rays[i].origin + seen[i].t * rays[i].direction;
+        worst = std::max(worst, std::abs(glm::length(met) - 2));
+    }
+    EXPECT_LT(worst, fine);
+}
+
+// A pane of patches that stops half of the light does so once, also where the ray meets an edge
+// between the cells that it is divided into.
+TEST(CurvedRays, SeamsOfCellsCountOnce) {
+    Scene scene = one_object(curved_sphere(1));
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    scene.materials[0].alpha = 0.5f;
+    const RayCaster caster(scene, 1);
+    Rng rng(4);
+    for (int k = 0; k < 2000; ++k) {
+        // Rows and columns of cells lie at dyadic (u, v).
+        const SurfacePoint seam = {ObjectId{0}, rng.below(8), static_cast<float>(rng.below(8)) / 8,
+                                   rng.uniform()};
+        const Vec3 p = surface_position(scene, seam);
+        const Ray ray = {Vec3(0), glm::normalize(p)};
+        Rgb through;
+        caster.transmittance({&ray, 1}, {&through, 1});
+        EXPECT_NEAR(through.r, 0.5f, 1e-6f) << seam.u << " " << seam.v;
+    }
+}
+
 }  // namespace
 }  // namespace chiaro

@@ -65,12 +65,12 @@ TEST(ManyLights, FrequenciesAreTheDensitiesStated) {
             const auto s = lights.sample(place, rng.uniform(), {0.3f, 0.3f});
             counts[s ? index_of(s->point.object) : kLamps] += 1;
             if (!s) continue;
-            EXPECT_NEAR(s->pdf_area / lights.pdf(place, s->point.object, 0), 1, 1e-5);
+            EXPECT_NEAR(s->pdf_area / lights.pdf(place, {s->point.object, 0}), 1, 1e-5);
         }
         double none = kSamples;
         for (std::uint32_t i = 0; i < kLamps; ++i) {
             const auto lamp = static_cast<ObjectId>(i);
-            expected.push_back(kSamples * double(lights.pdf(place, lamp, 0)) *
+            expected.push_back(kSamples * double(lights.pdf(place, {lamp, 0})) *
                                primitive_area(scene, lamp, 0));
             EXPECT_TRUE(expected[i] > 0 || counts[i] == 0);
             none -= expected[i];
@@ -89,7 +89,7 @@ TEST(ManyLights, ProbabilitiesSumToThatOfFindingALight) {
         double sum = 0;
         int left_out = 0;
         for (std::uint32_t i = 0; i < kLamps; ++i) {
-            const float pdf = lights.pdf(place, ObjectId(i), 0);
+            const float pdf = lights.pdf(place, {ObjectId(i), 0});
             sum += double(pdf) * primitive_area(scene, ObjectId(i), 0);
             const SurfaceGeometry g = surface_geometry(scene, {ObjectId(i), 0, 0.3f, 0.3f});
             const Vec3 to_light = g.position - place.position;
@@ -118,11 +118,11 @@ TEST(ManyLights, NoneIsChosenInTheDark) {
     const LitPlace below = {{3, 0, 0}, {0, 0, 1}}, turned = {{3, 0, 0}, {0, 0, -1}},
                    above = {{3, 0, 2}, {0, 0, -1}};
     double sum = 0;
-    for (std::uint32_t i = 0; i < 20; ++i) sum += 0.25 * lights.pdf(below, ObjectId(i), 0);
+    for (std::uint32_t i = 0; i < 20; ++i) sum += 0.25 * lights.pdf(below, {ObjectId(i), 0});
     EXPECT_NEAR(sum, 1, 1e-5);  // no lamp is out of sight there
     for (const LitPlace& place : {turned, above}) {
         EXPECT_FALSE(lights.sample(place, 0.5f, {0.5f, 0.5f}));
-        EXPECT_EQ(lights.pdf(place, ObjectId(7), 0), 0);
+        EXPECT_EQ(lights.pdf(place, {ObjectId(7), 0}), 0);
     }
 }
 

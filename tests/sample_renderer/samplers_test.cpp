@@ -139,7 +139,7 @@ TEST(Samplers, AimedRaysFollowTheDensityOfWhatTheyAreAimedAt) {
         const Hit hit = meter.look(receiver.origin, w);
         if (!hit) return 0.0f;
         const auto [object, primitive, u, v] = hit.point;
-        return surfaces.pdf(lit_place(receiver), object, primitive) * hit.t * hit.t /
+        return surfaces.pdf(lit_place(receiver), {object, primitive}) * hit.t * hit.t /
                std::abs(glm::dot(hit.normal, w));
     };
     expect_density(density, draw, "aimed rays", 48);

@@ -46,8 +46,8 @@ TEST(AreaLights, DarkPrimitivesHaveNoDensity) {
     const Scene scene = lamps();
     const AreaLights lights(scene);
     EXPECT_EQ(lights.size(), 3u);
-    EXPECT_EQ(lights.pdf(kAbove, ObjectId(1), 0), 0);
-    EXPECT_GT(lights.pdf(kAbove, ObjectId(2), 0), 0);
+    EXPECT_EQ(lights.pdf(kAbove, {ObjectId(1), 0}), 0);
+    EXPECT_GT(lights.pdf(kAbove, {ObjectId(2), 0}), 0);
 }
 
 TEST(AreaLights, NoEmittersIsEmpty) {
@@ -64,7 +64,7 @@ TEST(AreaLights, DensitiesSumToOne) {
     double sum = 0;
     for (std::uint32_t o = 0; o < 3; ++o)
         for (std::uint32_t p = 0; p < scene.mesh_of(scene.objects[o]).primitives.size(); ++p)
-            sum += lights.pdf(kAbove, ObjectId(o), p) * primitive_area(scene, ObjectId(o), p);
+            sum += lights.pdf(kAbove, {ObjectId(o), p}) * primitive_area(scene, ObjectId(o), p);
     EXPECT_NEAR(sum, 1, 1e-5);
 }
 
@@ -80,7 +80,7 @@ TEST(AreaLights, SamplesLieOnTheirPrimitives) {
         const SurfaceGeometry g = surface_geometry(scene, s.point);
         EXPECT_LT(glm::length(g.position - s.position), 1e-5f);
         EXPECT_GT(glm::dot(g.geometric_normal, s.normal), 0.99999f);
-        EXPECT_FLOAT_EQ(s.pdf_area, lights.pdf(kAbove, s.point.object, s.point.primitive));
+        EXPECT_FLOAT_EQ(s.pdf_area, lights.pdf(kAbove, s.point));
     }
 }
 
@@ -130,7 +130,7 @@ TEST(AreaLights, ChiSquaredOfSamples) {
                 const Vec3 c = geometry(second ? 1.0f : 0.0f, second ? 0.001f : 0.999f);
                 const double jacobian = glm::length(glm::cross(b - a, c - a)) / (0.999 * 0.999);
                 expected[key({ObjectId(o), p}, u, v)] +=
-                    kSamples * jacobian * lights.pdf(kAbove, ObjectId(o), p) / (kFine * kFine);
+                    kSamples * jacobian * lights.pdf(kAbove, {ObjectId(o), p}) / (kFine * kFine);
             }
         }
     }
@@ -159,7 +159,7 @@ TEST(AreaLights, SamplesByPowerAreEvenOverEachArea) {
         const AreaLightSample s =
             lights.sample_by_power(rng.uniform(), {rng.uniform(), rng.uniform()});
         const auto [object, primitive, u, v] = s.point;
-        EXPECT_FLOAT_EQ(s.pdf_area, lights.pdf_by_power(object, primitive));
+        EXPECT_FLOAT_EQ(s.pdf_area, lights.pdf_by_power({object, primitive}));
         const int light = object == ObjectId(2) ? 2 : int(primitive);
         const bool second = u + v > 1;
         const Vec2 uv = second ? Vec2(1 - u, 1 - v) : Vec2(u, v);
@@ -180,7 +180,7 @@ TEST(AreaLights, SamplesByPowerAreEvenOverEachArea) {
                     ? 0
                     : 0.5 * glm::length(glm::cross(at(1, 0) - at_corner, at(0, 1) - at_corner));
             expected.insert(expected.end(), 16,
-                            kSamples * area / 16 * lights.pdf_by_power(object, primitive));
+                            kSamples * area / 16 * lights.pdf_by_power({object, primitive}));
         }
     expect_counts(counts, expected, "by power");
 }
