@@ -100,16 +100,17 @@ TEST(Subdivide, NormalsJumpLittleAcrossEdges) {
 }
 
 // A torus cage of quads: one patch a face, and second derivatives go on across edges.
-std::string torus() {
+std::string torus(float scale = 1, float x = 0) {
     constexpr int kAround = 8, kAcross = 6;
     std::string text;
     for (int i = 0; i < kAround; ++i)
         for (int j = 0; j < kAcross; ++j) {
             const float a = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / kAround;
             const float b = 2 * std::numbers::pi_v<float> * static_cast<float>(j) / kAcross;
-            const float r = 3 + std::cos(b);
-            text += "v " + std::to_string(r * std::cos(a)) + " " + std::to_string(std::sin(b)) +
-                    " " + std::to_string(r * std::sin(a)) + "\n";
+            const float r = scale * (3 + std::cos(b));
+            text += "v " + std::to_string(x + r * std::cos(a)) + " " +
+                    std::to_string(scale * std::sin(b)) + " " + std::to_string(r * std::sin(a)) +
+                    "\n";
         }
     const auto vertex = [](int i, int j) {
         return " " + std::to_string(1 + i % kAround * kAcross + j % kAcross);
@@ -142,6 +143,11 @@ TEST(Subdivide, RegularPatchesJoinWithEqualSecondDerivatives) {
                               5e-6f);
         }
     EXPECT_EQ(joined, 48);
+}
+
+// Rounding, there, is more than an edge is bent: no reason to divide a patch.
+TEST(Subdivide, ASmallCageFarAwayHasAPatchAFaceToo) {
+    EXPECT_EQ(subdivided(torus(1e-3f, 100)).bicubics.size(), 48u);
 }
 
 // All twelve edges infinitely sharp: the cube itself.
