@@ -100,19 +100,25 @@ BicubicPatch shape_of(const CagePatch& piece) {
     return patch;
 }
 
-// How far the middles of patches are above or below the surface, where patches of the next level
-// have their limit positions: those of face f are 4 f to 4 f + 3, by its corners.
+// How far the middles of patches and of their edges are above or below the surface, where patches
+// of the next level have their limit positions: that of corner k of face f is face 4 f + k there.
 double deviation(const Surface& surface, const Surface& finer) {
-    constexpr int kOpposite = 15;  // of the corner of the first of the four
+    constexpr int kCorners[4] = {0, 3, 15, 12};
     double most = 0;
-    auto next = finer.patches.begin();
-    for (const CagePatch& piece : surface.patches) {
-        while (next != finer.patches.end() && next->face < 4 * piece.face) ++next;
-        if (piece.exact || next == finer.patches.end() || next->face != 4 * piece.face) continue;
-        const BicubicPatch patch = shape_of(piece);
-        const Vec3 limit(next->points[kOpposite].place);
-        const Vec3 off = limit - patch_position(patch, Vec2(0.5f));
-        most = std::max<double>(most, std::abs(glm::dot(off, patch_normal(patch, Vec2(0.5f)))));
+    auto parent = surface.patches.begin();
+    for (const CagePatch& child : finer.patches) {
+        while (parent != surface.patches.end() && parent->face < child.face / 4) ++parent;
+        if (parent == surface.patches.end()) break;
+        if (parent->face != child.face / 4 || parent->exact) continue;
+        const BicubicPatch patch = shape_of(*parent);
+        const int k = static_cast<int>(child.face % 4), next = (k + 1) % 4, opposite = (k + 2) % 4;
+        const auto measure = [&](int corner, Vec2 at) {
+            const Vec3 limit(child.points[kCorners[corner]].place);
+            const Vec3 off = limit - patch_position(patch, at);
+            most = std::max<double>(most, std::abs(glm::dot(off, patch_normal(patch, at))));
+        };
+        measure(next, 0.5f * (patch_corner(k) + patch_corner(next)));
+        measure(opposite, Vec2(0.5f));
     }
     return most;
 }
