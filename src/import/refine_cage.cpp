@@ -233,6 +233,7 @@ void from_gregory(const Far::PatchTable& table, const Far::PatchTable::PatchHand
                   const std::vector<CagePoint>& points, CagePatch& patch) {
     constexpr int kPlaces[4][4] = {{0, 1, 4, 5}, {3, 7, 2, 6}, {15, 14, 11, 10}, {12, 8, 13, 9}};
     const auto vertices = table.GetPatchVertices(handle);
+    check(vertices.size() == 20, "subdivision: a Gregory patch has 20 points");
     for (int corner = 0; corner < 4; ++corner) {
         const auto point = [&](int k) { return points[vertices[5 * corner + k]]; };
         const auto& [at, next, previous, inner] = kPlaces[corner];

@@ -136,8 +136,8 @@ TEST(Mutation, OfObjIsLoadedOrRefused) {
 }
 
 TEST(Mutation, OfCurvedSurfacesIsLoadedOrRefused) {
-    expect_loaded_or_refused("a.obj", curved_obj(), 4000);
-    expect_loaded_or_refused("a.bpt", one_bpt(), 3000);
+    expect_loaded_or_refused("a.obj", curved_obj(), 2000);
+    expect_loaded_or_refused("a.bpt", one_bpt(), 1000);
 }
 
 TEST(Mutation, OfMtlIsLoadedOrRefused) {

@@ -208,6 +208,29 @@ TEST(Subdivide, TextureCoordinatesGoWithTheSurface) {
         }
 }
 
+// Five triangles round a point: where places, texture coordinates and colours begin equal they
+// stay so, by equal rules, also next to a vertex of five faces.
+TEST(Subdivide, TextureCoordinatesAndColoursAreBlendedAsPlacesAre) {
+    std::string text = "v 0.5 0.5 0 0.5 0.5 0\nvt 0.5 0.5\n";
+    for (int k = 0; k < 5; ++k) {
+        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / 5;
+        const std::string x = std::to_string(0.5f + 0.4f * std::cos(angle)),
+                          y = std::to_string(0.5f + 0.4f * std::sin(angle));
+        text += "v " + x + " " + y + " 0 " + x + " " + y + " 0\nvt " + x + " " + y + "\n";
+    }
+    for (int k = 0; k < 5; ++k) {
+        const std::string from = std::to_string(k + 2), to = std::to_string((k + 1) % 5 + 2);
+        text += "f 1/1 " + from + "/" + from + " " + to + "/" + to + "\n";
+    }
+    const Mesh mesh = subdivided(text);
+    ASSERT_FALSE(mesh.bicubics.empty());
+    for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+        const Vec2 place(mesh.positions[k]);
+        EXPECT_LT(glm::distance(Vec2(mesh.colors[k]), place), kNearly);
+        EXPECT_LT(glm::distance(mesh.uvs[0][k], Vec2(place.x, 1 - place.y)), kNearly);
+    }
+}
+
 TEST(Subdivide, PolygonsOfAnyKindBecomePatchesOnlyWhenAsked) {
     const TempFolder folder;
     const std::string pyramid =
