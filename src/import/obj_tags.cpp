@@ -48,7 +48,7 @@ Tag read_words(TextLines& lines, std::string_view name) {
     const auto [integers, floats, strings] = read_counts(lines);
     for (std::uint32_t k = 0; k < integers; ++k)
         tag.integers.push_back(read_whole<std::uint32_t>(lines, lines.word(), "an index"));
-    for (std::uint32_t k = 0; k < floats; ++k) tag.floats.push_back(lines.number_word("tag"));
+    for (std::uint32_t k = 0; k < floats; ++k) tag.floats.push_back(lines.number_word("sharpness"));
     for (std::uint32_t k = 0; k < strings; ++k) {
         const std::string_view word = lines.word();
         if (word.empty()) lines.refuse("tag: a string is missing");
