@@ -25,6 +25,7 @@ OWNERS = [  # how the name of a library's header begins, and the folders that ma
     ("tbb|oneapi", {"base", "rays"}),
     ("fmt", {"import"}),
     ("tiny_gltf|spng|jpeglib|turbojpeg|OpenEXR|Imf|Imath", {"import"}),
+    ("opensubdiv", {"import"}),
     ("nlohmann", {"import", "apps"}),
     ("CLI", {"apps"}),
     ("GLFW|imgui|epoxy", {"user_interaction", "image_generator"}),

@@ -29,20 +29,22 @@ nlohmann::ordered_json describe(const Environment& environment) {
 }
 
 nlohmann::ordered_json describe(const Scene& scene) {
-    std::size_t quads = 0, triangles = 0, emitters = 0;
+    std::size_t patches = 0, quads = 0, triangles = 0, emitters = 0;
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.mesh_of(object);
-        quads += mesh.quad_count;
+        patches += mesh.bicubics.size();
+        quads += mesh.quad_count - mesh.bicubics.size();
         triangles += mesh.primitives.size() - mesh.quad_count;
         for (const Primitive& p : mesh.primitives)
             emitters += scene.material(p.material).emissive() ? 1 : 0;
     }
     const Box box = bounds(scene);
     nlohmann::ordered_json j;
-    j["primitives"] = quads + triangles;
+    j["primitives"] = patches + quads + triangles;
     j["quads"] = quads;
     j["triangles"] = triangles;
-    j["bezier_patches"] = 0;
+    j["bicubic_patches"] = patches;
+    j["bezier_patches"] = patches;  // its name before other kinds of surface became patches
     j["emissive_primitives"] = emitters;
     if (!box.empty()) {
         j["bounds"] = {{box.low.x, box.low.y, box.low.z}, {box.high.x, box.high.y, box.high.z}};
@@ -77,9 +79,10 @@ int info_command(const Options& options) {
                     j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
         return 0;
     }
-    std::printf("primitives %zu: %zu quads, %zu triangles; %zu emit\n",
+    std::printf("primitives %zu: %zu quads, %zu triangles, %zu bicubic patches; %zu emit\n",
                 j["primitives"].get<std::size_t>(), j["quads"].get<std::size_t>(),
-                j["triangles"].get<std::size_t>(), j["emissive_primitives"].get<std::size_t>());
+                j["triangles"].get<std::size_t>(), j["bicubic_patches"].get<std::size_t>(),
+                j["emissive_primitives"].get<std::size_t>());
     if (!j["bounds"].is_null()) std::printf("bounds     %s\n", j["bounds"].dump().c_str());
     for (const char* list : {"objects", "lights", "materials", "textures", "cameras"})
         print_list(j, list);

@@ -49,7 +49,7 @@ Environment choose_environment(const Options& options) {
 
 Scene open_scene(const Options& options) {
     if (options.scene.empty()) throw Error("SCENE", "no file is named");
-    LoadOptions load = {.scale = options.scale};
+    LoadOptions load = {.scale = options.scale, .subdivide = options.subdivide};
     if (!options.up.empty()) load.up = unit_or_zero(parse_vector("--up", options.up));
     Environment environment = choose_environment(options);
     Scene scene;

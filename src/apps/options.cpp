@@ -125,10 +125,12 @@ CLI::Validator whole_number() {
 void add_scene_options(CLI::App& command, Options& o) {
     command
         .add_option("SCENE", o.scene,
-                    "a .gltf, .glb or .obj file, or builtin:room, builtin:cornell")
+                    "a .gltf, .glb, .obj or .bpt file, or builtin:room, builtin:cornell")
         ->required();
     command.add_option("--up", o.up, "the vertical of a file that is not y-up, as 0,0,1");
     command.add_option("--scale", o.scale, "multiplies all lengths of the scene");
+    command.add_flag("--subdivide", o.subdivide,
+                     "take polygons as cages of Catmull-Clark surfaces");
     command.add_option("--environment", o.environment,
                        "light from all around: an equirectangular .hdr or .exr picture in cd/m2");
     command.add_option("--sky", o.sky, "the same light from everywhere, as 1,1,1 [cd/m2]");

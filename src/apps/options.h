@@ -28,6 +28,7 @@ struct Options {
     std::string statistics;
     std::optional<float> exposure;
     float scale = 1;
+    bool subdivide = false;
     std::string environment, sky;
 
     std::optional<double> time;            // seconds after loading

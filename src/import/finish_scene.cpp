@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "import/directions.h"
 #include "import/fault.h"
+#include "import/flatten_emitters.h"
+#include "import/subdivide.h"
 
 #include <fmt/format.h>
 
@@ -107,6 +109,10 @@ void check_extent(Scene& scene, const std::string& where) {
             check_inside("object", object.name, p);
             check_inside("object", object.name, Vec3(object.to_world * Vec4(p, 1)));
         }
+        for (const BicubicPatch& patch : scene.mesh_of(object).bicubics)
+            for (const BicubicPatch& here : {patch, transformed(patch, object.to_world)})
+                for (const Vec4& p : here.points)
+                    check_inside("object", object.name, Vec3(p) / p.w);
     }
     for (const PunctualLight& light : scene.lights)
         check_inside("light", light.name, light.position);
@@ -148,6 +154,8 @@ std::vector<bool> drop_unseen(Scene& scene, const std::string& where) {
 void finish_scene(Scene& scene, const LoadOptions& options, const std::string& where) {
     check_options(options);
     if (options.up) scene.up = unit_or_zero(*options.up);
+    if (options.subdivide) subdivide_meshes(scene, where);
+    flatten_emitters(scene, where);
     scale_lengths(scene, options.scale);
     drop_empty_objects(scene, where);
     drop_unused_meshes(scene);

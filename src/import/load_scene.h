@@ -1,5 +1,5 @@
-// Scenes from files: glTF 2.0 (.gltf, .glb) and Wavefront OBJ with MTL (.obj). docs/files.md says
-// what is read of each.
+// Scenes from files: glTF 2.0 (.gltf, .glb), Wavefront OBJ with MTL (.obj) and Bezier patches
+// (.bpt). docs/files.md says what is read of each.
 #pragma once
 
 #include "scene/scene.h"
@@ -26,6 +26,8 @@ struct LoadOptions {
     std::optional<Vec3> up = std::nullopt;
     /// Multiplies all lengths; above 0 and finite. Light keeps its candela and lux.
     float scale = 1;
+    /// Polygons are cages of Catmull-Clark surfaces, and become bicubic patches.
+    bool subdivide = false;
 };
 
 /// Reads the scene in `file`, by its ending. The result has passed check_scene(), its names are

@@ -3,6 +3,9 @@
 #include "base/error.h"
 #include "import/directions.h"
 #include "import/ear_clip.h"
+#include "import/load_scene.h"
+#include "import/patch_colors.h"
+#include "scene/bicubic_mesh.h"
 
 #include <fmt/format.h>
 
@@ -26,10 +29,73 @@ struct CornerEqual {
     }
 };
 
+// One surface of a part.
+class SurfaceMaker {
+public:
+    SurfaceMaker(const ObjGeometry& geometry, const ObjSurface& surface, const std::string& file)
+        : geometry_(geometry), surface_(surface), file_(file) {}
+
+    void add_to(Mesh& mesh) const {
+        for (std::uint32_t row = 0; row < surface_.shape.rows; ++row)
+            for (std::uint32_t column = 0; column < surface_.shape.columns; ++column)
+                add_piece(3 * column, 3 * row, mesh);
+    }
+
+private:
+    // The piece whose first control point is (column, row) of the surface's.
+    void add_piece(std::uint32_t column, std::uint32_t row, Mesh& mesh) const {
+        BicubicPatch patch;
+        for (std::uint32_t j = 0; j < 4; ++j)
+            for (std::uint32_t i = 0; i < 4; ++i)
+                patch.at(static_cast<int>(i), static_cast<int>(j)) =
+                    control_point(corner(column + i, row + j));
+        const std::array<ObjCorner, 4> corners = {corner(column, row), corner(column + 3, row),
+                                                  corner(column + 3, row + 3),
+                                                  corner(column, row + 3)};
+        CornerUvs uvs = kUnitUvs;
+        for (int c = 0; c < 4; ++c)
+            if (corners[c].vt != ObjCorner::kNone) uvs[c] = mesh_uv(geometry_.vt[corners[c].vt]);
+        add_bicubic(mesh, patch, surface_.material, uvs);
+        if (geometry_.colors.empty()) return;
+        std::array<Vec4, 4> colors;
+        for (int c = 0; c < 4; ++c) colors[c] = Vec4(geometry_.colors[corners[c].v], 1);
+        color_last_patch(mesh, colors);
+    }
+
+    const ObjCorner& corner(std::uint32_t column, std::uint32_t row) const {
+        const std::size_t width = std::size_t{3} * surface_.shape.columns + 1;
+        return geometry_.corners[surface_.shape.first_corner + row * width + column];
+    }
+
+    Vec4 control_point(const ObjCorner& corner) const {
+        constexpr float kLeast = 1e-4f, kMost = 1e4f;
+        const Vec3 place = geometry_.v[corner.v];
+        const bool weighted = surface_.shape.rational && !geometry_.weights.empty();
+        const float weight = weighted ? geometry_.weights[corner.v] : 1;
+        if (!within_reach(place)) refuse(corner, "has coordinates beyond 1e9");
+        if (!(weight >= kLeast && weight <= kMost))
+            refuse(corner,
+                   fmt::format("has the weight {}, not one from {} to {}", weight, kLeast, kMost));
+        return Vec4(weight * place, weight);
+    }
+
+    [[noreturn]] void refuse(const ObjCorner& corner, const std::string& what) const {
+        throw Error(fmt::format("{}:{}", file_, surface_.shape.line),
+                    fmt::format("control point {} {}", corner.v + 1, what));
+    }
+
+    const ObjGeometry& geometry_;
+    const ObjSurface& surface_;
+    const std::string& file_;
+};
+
 class MeshMaker {
 public:
-    MeshMaker(const ObjGeometry& geometry, const ObjPart& part) : geometry_(geometry) {
+    MeshMaker(const ObjGeometry& geometry, const ObjPart& part, const std::string& file)
+        : geometry_(geometry) {
         mesh_.name = part.name;
+        add_surfaces(geometry, part, file, mesh_);
+        has_normals_ = has_uvs_ = !mesh_.bicubics.empty();
         for (const ObjFace& face : part.faces)
             for (const ObjCorner& corner : corners_of(face)) {
                 has_normals_ |= has_normal(corner);
@@ -89,7 +155,7 @@ private:
             mesh_.normals.push_back(has_normal(corner) ? geometry_.vn[corner.vn] : face_normal);
         if (has_uvs_) {
             const Vec2 uv = corner.vt == ObjCorner::kNone ? Vec2(0) : geometry_.vt[corner.vt];
-            mesh_.uvs[0].emplace_back(uv.x, 1 - uv.y);
+            mesh_.uvs[0].push_back(mesh_uv(uv));
         }
         if (!geometry_.colors.empty()) mesh_.colors.emplace_back(geometry_.colors[corner.v], 1);
         return fresh;
@@ -107,8 +173,14 @@ private:
 
 }  // namespace
 
+void add_surfaces(const ObjGeometry& geometry, const ObjPart& part, const std::string& file,
+                  Mesh& mesh) {
+    for (const ObjSurface& surface : part.surfaces)
+        SurfaceMaker(geometry, surface, file).add_to(mesh);
+}
+
 Mesh make_mesh(const ObjGeometry& geometry, const ObjPart& part, const std::string& file) {
-    MeshMaker maker(geometry, part);
+    MeshMaker maker(geometry, part, file);
     for (const ObjFace& face : part.faces) maker.add(face, file);
     return maker.take();
 }

@@ -3,8 +3,11 @@
 #include "import/directions.h"
 #include "import/fault.h"
 #include "import/finish_scene.h"
+#include "import/obj_cage.h"
 #include "import/obj_geometry.h"
+#include "import/obj_tags.h"
 #include "import/read_mtl.h"
+#include "import/subdivide.h"
 #include "import/text_lines.h"
 #include "import/unique_names.h"
 #include "scene/enclosure.h"
@@ -31,16 +34,18 @@ struct LargestIndex {
 
 class ObjReader {
 public:
-    explicit ObjReader(const SceneFile& file)
-        : file_(file), lines_(file.bytes, file.where), materials_(scene_, file.folder) {}
+    ObjReader(const SceneFile& file, bool subdivide)
+        : file_(file),
+          subdivide_(subdivide),
+          lines_(file.bytes, file.where),
+          free_form_(lines_),
+          materials_(scene_, file.folder) {}
 
     Scene read() {
         while (lines_.next()) read_statement();
+        free_form_.check_ended();
         check_indices();
-        if (faces_ == 0 && curves_line_ > 0)
-            throw Error(lines_.where(curves_line_), "curved surfaces are not supported yet",
-                        "export the scene as polygons");
-        if (faces_ == 0) throw Error(file_.where, "there is no face in the file");
+        if (faces_ == 0 && surfaces_ == 0) refuse_nothing();
         make_objects();
         materials_.load_textures(drop_unseen(scene_, file_.where));
         add_warnings();
@@ -58,26 +63,27 @@ private:
             read_normal();
         else if (key == "f" || key == "fo")
             read_face();
+        else if (key == "surf")
+            read_surface();
+        else if (key == "end")
+            end_surface();
+        else if (key == "t")
+            read_tag(lines_, tags_);
         else if (key == "o" || key == "g")
             begin_part(key == "o");
         else if (key == "usemtl")
             use_material();
         else if (key == "mtllib")
             materials_.read_libraries(std::string(lines_.remainder()), lines_.where());
-        else
+        else if (!free_form_.read(key))
             note_other(key);
     }
 
     void note_other(std::string_view key) {
-        static const std::set<std::string_view> kCurved = {
-            "cstype", "deg",  "bmat", "step", "curv", "curv2", "surf", "vp",  "parm", "trim",
-            "hole",   "scrv", "sp",   "end",  "con",  "bzp",   "bsp",  "cdc", "cdp"};
         static const std::set<std::string_view> kSilent = {
             "s",         "mg",    "bevel", "c_interp", "d_interp", "lod", "shadow_obj",
-            "trace_obj", "ctech", "stech", "usemap",   "maplib",   "t",   "res"};
-        if (kCurved.contains(key)) {
-            if (curves_line_ == 0) curves_line_ = lines_.number();
-        } else if (key == "l" || key == "p") {
+            "trace_obj", "ctech", "stech", "usemap",   "maplib",   "res"};
+        if (key == "l" || key == "p") {
             ++points_and_lines_;
         } else if (!kSilent.contains(key) && unknown_.size() < 8) {
             unknown_.insert(printable(key));
@@ -102,6 +108,10 @@ private:
                 glm::clamp(Vec3(more[0], more[1], more[2]), Vec3(0), Vec3(1)));
         } else if (!geometry_.colors.empty()) {
             geometry_.colors.emplace_back(1);
+        }
+        if (count == 1 || !geometry_.weights.empty()) {
+            geometry_.weights.resize(geometry_.v.size(), 1);
+            geometry_.weights.push_back(count == 1 ? more[0] : 1);
         }
         geometry_.v.push_back(position);
     }
@@ -159,18 +169,36 @@ private:
         return corner;
     }
 
-    void read_face() {
+    // The corners that the line names; returns how many.
+    std::size_t read_corners() {
         const std::size_t first = geometry_.corners.size();
         for (std::string_view text = lines_.word(); !text.empty(); text = lines_.word())
             geometry_.corners.push_back(read_corner(text));
-        const std::size_t count = geometry_.corners.size() - first;
+        if (geometry_.corners.size() > kMaxCorners) lines_.refuse("there are too many faces");
+        return geometry_.corners.size() - first;
+    }
+
+    void read_face() {
+        const std::size_t first = geometry_.corners.size(), count = read_corners();
         if (count < 3)
             lines_.refuse(fmt::format("a face needs at least 3 corners and has {}", count));
-        if (geometry_.corners.size() > kMaxCorners) lines_.refuse("there are too many faces");
         current_part().faces.push_back({static_cast<std::uint32_t>(first),
                                         static_cast<std::uint32_t>(count), current_material(),
-                                        lines_.number()});
+                                        lines_.number(), static_cast<std::uint32_t>(faces_)});
         ++faces_;
+    }
+
+    void read_surface() {
+        free_form_.begin_surface();
+        const std::size_t first = geometry_.corners.size();
+        free_form_.set_corners(first, read_corners());
+    }
+
+    void end_surface() {
+        const std::optional<FreeFormSurface> surface = free_form_.end();
+        if (!surface) return;
+        current_part().surfaces.push_back({*surface, current_material()});
+        ++surfaces_;
     }
 
     void begin_part(bool is_object) {
@@ -193,7 +221,7 @@ private:
             const std::string name =
                 joined ? object_ + "/" + group_ : (object_.empty() ? group_ : object_);
             const auto [known, fresh] = part_of_.try_emplace(name, geometry_.parts.size());
-            if (fresh) geometry_.parts.push_back({name, {}});
+            if (fresh) geometry_.parts.push_back({name, {}, {}});
             part_ = known->second;
         }
         return geometry_.parts[part_];
@@ -230,6 +258,21 @@ private:
         check_kind(largest_vn_, geometry_.vn.size(), "vn");
     }
 
+    [[noreturn]] void refuse_nothing() const {
+        for (const auto& [what, line] : free_form_.left_out())
+            throw Error(lines_.where(line), what + " are not supported",
+                        "there is no other surface in the file");
+        throw Error(file_.where, "there is no face in the file");
+    }
+
+    Mesh make_mesh_of(const ObjPart& part) {
+        if (part.faces.empty() || !(subdivide_ || tags_.any))
+            return make_mesh(geometry_, part, file_.where);
+        Mesh mesh = subdivide(make_cage(geometry_, part, tags_), file_.where, scene_.warnings);
+        add_surfaces(geometry_, part, file_.where, mesh);
+        return mesh;
+    }
+
     void make_objects() {
         if (!geometry_.colors.empty()) geometry_.colors.resize(geometry_.v.size(), Vec3(1));
         UniqueNames object_name, material_name;
@@ -237,7 +280,7 @@ private:
             part.name = object_name(part.name, "object");
             scene_.objects.push_back(
                 {part.name, static_cast<MeshId>(scene_.meshes.size()), Mat4(1)});
-            scene_.meshes.push_back(make_mesh(geometry_, part, file_.where));
+            scene_.meshes.push_back(make_mesh_of(part));
         }
         for (Material& material : scene_.materials)
             material.name = material_name(material.name, "material");
@@ -248,9 +291,11 @@ private:
         const auto add = [&](const std::string& what) {
             scene_.warnings.push_back(file_.where + ": " + what);
         };
-        if (curves_line_ > 0)
-            scene_.warnings.push_back(lines_.where(curves_line_) +
-                                      ": curved surfaces are not supported yet and were left out");
+        for (const auto& [what, line] : free_form_.left_out())
+            scene_.warnings.push_back(lines_.where(line) + ": " + what +
+                                      " are not supported and were left out");
+        for (const std::string& name : tags_.unknown)
+            add(fmt::format("tags \"{}\" are not supported and were left out", name));
         if (points_and_lines_ > 0) add("points and lines were left out");
         for (const std::string& key : unknown_)
             add(fmt::format("statements \"{}\" are unknown and were left out", key));
@@ -259,7 +304,10 @@ private:
     static constexpr std::size_t kNoPart = static_cast<std::size_t>(-1);
 
     const SceneFile& file_;
+    bool subdivide_;
     TextLines lines_;
+    ObjFreeForm free_form_;
+    ObjTags tags_;
     Scene scene_;
     MtlMaterials materials_;
     ObjGeometry geometry_;
@@ -270,16 +318,15 @@ private:
     std::string material_name_;
     std::uint32_t material_line_ = 0;  // of its usemtl; 0: there was none
     LargestIndex largest_v_, largest_vt_, largest_vn_;
-    std::size_t faces_ = 0;
-    std::uint32_t curves_line_ = 0;  // the first statement of a curve or surface; 0: none
+    std::size_t faces_ = 0, surfaces_ = 0;
     std::size_t points_and_lines_ = 0;
     std::set<std::string> unknown_, missing_materials_;
 };
 
 }  // namespace
 
-Scene read_obj(const SceneFile& file) {
-    return ObjReader(file).read();
+Scene read_obj(const SceneFile& file, bool subdivide) {
+    return ObjReader(file, subdivide).read();
 }
 
 }  // namespace chiaro

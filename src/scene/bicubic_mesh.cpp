@@ -106,10 +106,12 @@ private:
         if (!(size > 0)) return kCollapsed;
         const Vec3 from = curve_position(curve, 0), to = curve_position(curve, 1);
         const Vec3 middle = curve_position(curve, 0.5f);
+        // A small curve far from the origin is rounded by more than it is bent.
+        const float near = 1e-3f * size + 1e-6f * max_component(glm::abs(middle));
         const auto key = std::minmax({place_of(from), place_of(to)});
         std::vector<Known>& between = by_ends_[{key.first, key.second}];
         for (const Known& known : between)
-            if (glm::distance(known.middle, middle) <= 1e-3f * size) return known.number;
+            if (glm::distance(known.middle, middle) <= near) return known.number;
 
         const int number = static_cast<int>(ambiguous_.size());
         ambiguous_.push_back(from == to || !between.empty());

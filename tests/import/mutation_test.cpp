@@ -42,6 +42,25 @@ std::string rich_obj() {
            "f -1 -2 -3 \\\n -4 -5\ns 1\nl 1 2\n";
 }
 
+// Both kinds of curved surface: free-form, and a cage with tags.
+std::string curved_obj() {
+    std::string text;
+    for (int k = 0; k < 16; ++k)
+        text += "v " + std::to_string(k % 4) + " " + std::to_string(k / 4) + " 0 1\n";
+    return text +
+           "cstype rat bezier\ndeg 3 3\nsurf 0 1 0 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16\n"
+           "parm u 0 1\nparm v 0 1\nend\nvt 0 0\nf 1/1 2/1 6/1 5/1\nf 2/1 3/1 7/1 6/1\n"
+           "f 5/1 6/1 10/1\nt crease 2/1/0 1 5 2.5\nt corner 1/1/0 0 3\nt hole 1/0/0 1\n"
+           "t interpolateboundary 1/0/0 1\n";
+}
+
+std::string one_bpt() {
+    std::string text = "1\n3 3\n";
+    for (int k = 0; k < 16; ++k)
+        text += std::to_string(k % 4) + " " + std::to_string(k / 4) + " 0\n";
+    return text;
+}
+
 std::string rich_mtl() {
     return "newmtl m\nKd .1 .2 .3\nKe 1 1 1\nNs 5\nNi 1.2\nillum 2\nd .5\nmap_Kd -s 1 2 p.png\n";
 }
@@ -114,6 +133,11 @@ TEST(Mutation, OfBinaryGltfIsLoadedOrRefused) {
 
 TEST(Mutation, OfObjIsLoadedOrRefused) {
     expect_loaded_or_refused("a.obj", rich_obj(), 6000);
+}
+
+TEST(Mutation, OfCurvedSurfacesIsLoadedOrRefused) {
+    expect_loaded_or_refused("a.obj", curved_obj(), 2000);
+    expect_loaded_or_refused("a.bpt", one_bpt(), 1000);
 }
 
 TEST(Mutation, OfMtlIsLoadedOrRefused) {

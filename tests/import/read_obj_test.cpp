@@ -140,14 +140,6 @@ TEST(ReadObj, FaultsNameTheLine) {
     EXPECT_EQ(fault(""), "a.obj: there is no face in the file");
 }
 
-TEST(ReadObj, CurvedSurfacesAloneAreRefusedAndBesideFacesLeftOut) {
-    const TempFolder folder;
-    const std::string curve = std::string(kSquare) + "cstype bezier\ndeg 3 3\n";
-    EXPECT_NE(fault_of_file(folder, "a.obj", curve).find("curved surfaces are not supported yet"),
-              std::string::npos);
-    EXPECT_EQ(folder.load("a.obj", curve + "f 1 2 3\n").warnings.size(), 1u);
-}
-
 TEST(ReadObj, PolygonsOfManyCornersAreSplit) {
     const Scene scene = TempFolder().load("a.obj",
                                           "v 0 0 0\nv 2 0 0\nv .3 .3 0\nv 0 2 0\nv -1 1 0\n"
