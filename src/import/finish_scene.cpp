@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "import/directions.h"
 #include "import/fault.h"
-#include "import/flatten_emitters.h"
 #include "import/subdivide.h"
 
 #include <fmt/format.h>
@@ -155,7 +154,6 @@ void finish_scene(Scene& scene, const LoadOptions& options, const std::string& w
     check_options(options);
     if (options.up) scene.up = unit_or_zero(*options.up);
     if (options.subdivide) subdivide_meshes(scene, where);
-    flatten_emitters(scene, where);
     scale_lengths(scene, options.scale);
     drop_empty_objects(scene, where);
     drop_unused_meshes(scene);
