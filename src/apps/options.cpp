@@ -103,6 +103,12 @@ std::uint32_t sample_count(const char* option, std::optional<int> value, std::ui
     return (static_cast<std::uint32_t>(*value) + kReplicates - 1) / kReplicates * kReplicates;
 }
 
+float curve_tolerance(const Options& options) {
+    if (!(options.curve_error >= 1e-6f && options.curve_error <= 0.1f))
+        throw Error("--curve-error", "it must lie between 0.000001 and 0.1");
+    return options.curve_error;
+}
+
 int thread_count(const Options& options) {
     if (options.threads < 0 || options.threads > 1024)
         throw Error("--threads", std::to_string(options.threads) + " is no number of threads",
@@ -131,6 +137,9 @@ void add_scene_options(CLI::App& command, Options& o) {
     command.add_option("--scale", o.scale, "multiplies all lengths of the scene");
     command.add_flag("--subdivide", o.subdivide,
                      "take polygons as cages of Catmull-Clark surfaces");
+    command.add_option("--curve-error", o.curve_error,
+                       "how far curved surfaces may be off, as light meets them, in parts of "
+                       "their object's size (default: 0.00025)");
     command.add_option("--environment", o.environment,
                        "light from all around: an equirectangular .hdr or .exr picture in cd/m2");
     command.add_option("--sky", o.sky, "the same light from everywhere, as 1,1,1 [cd/m2]");

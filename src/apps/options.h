@@ -1,6 +1,7 @@
 // What the command line says (the contract is in docs/command_line.md).
 #pragma once
 
+#include "rays/ray_caster.h"
 #include "scene/camera.h"
 #include "update/update_cycle.h"
 
@@ -29,6 +30,7 @@ struct Options {
     std::optional<float> exposure;
     float scale = 1;
     bool subdivide = false;
+    float curve_error = kCurveTolerance;
     std::string environment, sky;
 
     std::optional<double> time;            // seconds after loading
@@ -60,6 +62,9 @@ RendererName parse_renderer(const std::string& text, RendererName otherwise);
 void check_only_path(const Options& options);
 void check_time(const Options& options);
 std::uint32_t sample_count(const char* option, std::optional<int> value, std::uint32_t otherwise);
+
+/// How far bicubic patches may be from the truth, in parts of their object's size.
+float curve_tolerance(const Options& options);
 
 /// Threads to use: what was asked for, or all that the machine has.
 int thread_count(const Options& options);

@@ -25,7 +25,7 @@ int reference_command(const Options& options) {
     const Scene scene = open_scene(options);
     const Camera camera = choose_camera(scene, options);
 
-    RayCaster rays(scene, threads);
+    RayCaster rays(scene, threads, curve_tolerance(options));
     const View view(camera, size.width, size.height);
     show_curves(rays, view, threads);
     const AreaLights area_lights(scene);

@@ -83,7 +83,7 @@ int render_command(const Options& options) {
     const Camera camera = choose_camera(scene, options);
     add_headlamp_if_dark(scene, camera);
 
-    RayCaster rays(scene, settings.threads);
+    RayCaster rays(scene, settings.threads, curve_tolerance(options));
     const AreaLights area_lights(scene);
     const MeshGraphs graphs(scene, coarser_levels(settings.scheme), settings.threads);
     OpenSides open_sides(scene);

@@ -25,6 +25,8 @@ TEST(Usage, EachWrongWordIsNamed) {
         {{"info", "builtin:cornell", "--scale", "0"}, "--scale"},
         {{"info", "builtin:cornell", "--scale", "-1"}, "--scale"},
         {{"info", "builtin:cornell", "--scale", "nan"}, "--scale"},
+        {{"trace", "builtin:cornell", "--curve-error", "0"}, "--curve-error"},
+        {{"trace", "builtin:cornell", "--curve-error", "nan"}, "--curve-error"},
         {{"trace", "builtin:cornell", "--lux"}, "-I"},
         {{"trace", "-I", "builtin:cornell", "--direct-samples", "0"}, "--direct-samples"},
         {{"trace", "-I", "builtin:cornell", "--indirect-samples", "-4"}, "--indirect-samples"},
