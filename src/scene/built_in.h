@@ -14,8 +14,9 @@ namespace chiaro {
 std::vector<std::string> built_in_names();
 
 /// The scene called `name`, or nothing if there is none. Passes check_scene().
-///   room     a furnished living room of about 2000 primitives, metres, lit by a ceiling panel
-///   cornell  the Cornell box as it was measured, one unit a hundredth of the published one
+///   room     a furnished living room of about 4000 primitives, metres, lit by a ceiling panel, 9
+///   of its objects curved cornell  the Cornell box as it was measured, one unit a hundredth of the
+///   published one
 std::optional<Scene> built_in_scene(std::string_view name);
 
 /// The scenes themselves.

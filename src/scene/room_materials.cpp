@@ -12,6 +12,15 @@ MaterialId matte(Scene& scene, std::string name, Rgb reflectance) {
     return add_material(scene, {.name = std::move(name), .base_color = reflectance});
 }
 
+MaterialId glossy(Scene& scene, std::string name, Rgb reflectance, float roughness,
+                  float metallic = 0) {
+    return add_material(scene, {.name = std::move(name),
+                                .base_color = reflectance,
+                                .gloss = {.model = GlossModel::metallic_roughness,
+                                          .metallic = metallic,
+                                          .roughness = roughness}});
+}
+
 TextureId add_texture(Scene& scene, Texture texture) {
     scene.textures.push_back(std::move(texture));
     return static_cast<TextureId>(scene.textures.size() - 1);
@@ -53,7 +62,9 @@ void add_furniture_materials(Scene& scene, Palette& palette) {
 void add_small_materials(Scene& scene, Palette& palette) {
     palette.shade = matte(scene, "Lamp shade", {0.76f, 0.70f, 0.58f});
     palette.ceramic = matte(scene, "White ceramic", {0.75f, 0.74f, 0.71f});
-    palette.glaze = matte(scene, "Blue glaze", {0.06f, 0.17f, 0.32f});
+    palette.glaze = glossy(scene, "Blue glaze", {0.06f, 0.17f, 0.32f}, 0.15f);
+    palette.porcelain = glossy(scene, "Porcelain", {0.76f, 0.75f, 0.71f}, 0.1f);
+    palette.silver = glossy(scene, "Silver", {0.84f, 0.82f, 0.78f}, 0.15f, 1);
     palette.terracotta = matte(scene, "Terracotta", {0.50f, 0.21f, 0.11f});
     palette.soil = matte(scene, "Soil", {0.06f, 0.045f, 0.03f});
     palette.leaf = matte(scene, "Leaf", {0.08f, 0.21f, 0.05f});
