@@ -172,7 +172,7 @@ Scene make_indirect() {
                      {.name = "chair",
                       .eye = {3.6f, 1.35f, 3.6f},
                       .target = {5.2f, 0.75f, 1.2f},
-                      .vertical_fov = 50},
+                      .vertical_fov = 42},
                      {.name = "sculpture",
                       .eye = {4.6f, 1.5f, 3.1f},
                       .target = {2.9f, 1.2f, 0.5f},

@@ -106,7 +106,7 @@ Mesh curtain_mesh(const Palette& palette) {
         return Vec3(kWidth * u, glm::mix(0.015f, kCurtainRail - 0.03f, v), depth * std::sin(phase));
     };
     Mesh mesh;
-    add(mesh, sheet(66, 3, point), palette.curtain);
+    add(mesh, sheet(66, 2, point), palette.curtain);
     return mesh;
 }
 
@@ -158,12 +158,15 @@ Mesh door_mesh(const Palette& palette) {
 
 Mesh radiator_mesh(const Palette& palette) {
     constexpr int kSections = 12;
-    constexpr int kSides = 8;
+    constexpr int kSides = 7;
     constexpr float kPitch = 0.075f;
     const float half = 0.5f * kPitch * (kSections - 1);
-    const Vec2 column[] = {{0, 0.1f},       {0.026f, 0.115f}, {0.026f, 0.16f},  {0.017f, 0.19f},
-                           {0.017f, 0.61f}, {0.026f, 0.64f},  {0.026f, 0.685f}, {0, 0.7f}};
-    const Vec2 hub[] = {{0.016f, -half}, {0.016f, half}};
+    const Vec2 column[] = {{0.016f, 0.105f}, {0.026f, 0.115f}, {0.026f, 0.16f},  {0.017f, 0.19f},
+                           {0.017f, 0.61f},  {0.026f, 0.64f},  {0.026f, 0.685f}, {0, 0.7f}};
+    // Their ends stand out, as taps do: light is known at corners that are seen.
+    const float end = half + 0.05f;
+    const Vec2 hub[] = {{0, -end},     {0.016f, -end}, {0.016f, -end},
+                        {0.016f, end}, {0.016f, end},  {0, end}};
     const Mesh tube = lathe(column, kSides);
     const Mesh pipe = lathe(hub, kSides);
     Mesh mesh;
@@ -173,10 +176,6 @@ Mesh radiator_mesh(const Palette& palette) {
         for (const float y : {0.14f, 0.66f})
             add(mesh, pipe, palette.woodwork, moved({0, y, z}) * turned({0, 0, 1}, -90));
     }
-    // Feet under the first and the last section.
-    for (const float x : {-half, half})
-        add(mesh, bar({x, 0, 0.095f}, {x, 0.14f, 0.095f}, {1, 0, 0}, {0.03f, 0.08f}, 0.6f),
-            palette.woodwork);
     return mesh;
 }
 
