@@ -6,6 +6,7 @@
 #include "import/image_file.h"
 #include "import/load_scene.h"
 #include "import/text_lines.h"
+#include "scene/built_in.h"
 
 #include <charconv>
 #include <cmath>
@@ -129,10 +130,9 @@ CLI::Validator whole_number() {
 }
 
 void add_scene_options(CLI::App& command, Options& o) {
-    command
-        .add_option("SCENE", o.scene,
-                    "a .gltf, .glb, .obj or .bpt file, or builtin:room, builtin:cornell")
-        ->required();
+    std::string kinds = "a .gltf, .glb, .obj or .bpt file";
+    for (const std::string& name : built_in_names()) kinds += ", builtin:" + name;
+    command.add_option("SCENE", o.scene, kinds)->required();
     command.add_option("--up", o.up, "the vertical of a file that is not y-up, as 0,0,1");
     command.add_option("--scale", o.scale, "multiplies all lengths of the scene");
     command.add_flag("--subdivide", o.subdivide,

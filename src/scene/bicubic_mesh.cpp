@@ -73,8 +73,9 @@ public:
     explicit Edges(std::span<const LoosePatch> patches) {
         for (const LoosePatch& patch : patches) {
             std::array<int, 4> of_patch;
+            const float size = hull(patch.shape).diagonal();
             for (int side = 0; side < 4; ++side)
-                of_patch[side] = add(patch_edge(patch.shape, side));
+                of_patch[side] = add(patch_edge(patch.shape, side), size);
             of_patches_.push_back(of_patch);
         }
     }
@@ -101,9 +102,11 @@ private:
         int number;
     };
 
-    int add(const CubicCurve& curve) {
+    // The control points of a pole that was moved differ by their rounding.
+    int add(const CubicCurve& curve, float patch_size) {
+        constexpr float kRounding = 1e-5f;
         const float size = hull(curve).diagonal();
-        if (!(size > 0)) return kCollapsed;
+        if (!(size > kRounding * patch_size)) return kCollapsed;
         const Vec3 from = curve_position(curve, 0), to = curve_position(curve, 1);
         const Vec3 middle = curve_position(curve, 0.5f);
         // A small curve far from the origin is rounded by more than it is bent.

@@ -5,6 +5,7 @@
 #include "scene/surface.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace chiaro {
@@ -82,8 +83,9 @@ public:
 
     void run() {
         const std::vector<Primitive> plain = std::move(mesh_.primitives);
-        mesh_.primitives.clear();
-        for (const Primitive& primitive : plain) {
+        const std::span patches = std::span(plain).first(mesh_.bicubics.size());
+        mesh_.primitives.assign(patches.begin(), patches.end());
+        for (const Primitive& primitive : std::span(plain).subspan(patches.size())) {
             const auto& c = primitive.corners;
             if (!primitive.is_quad()) {
                 divide({c[0], c[1], c[2]}, primitive.material);

@@ -13,7 +13,7 @@ namespace chiaro {
 /// alone, so that all who have it agree: no cracks, no corner in the middle of a neighbour's edge.
 /// Points made on an edge are shared where its ends are. What points carry is interpolated; normals
 /// are made of unit length again. An edge stays whose middle is one of its ends, and slivers that
-/// rounding has made flat are dropped (order_primitives).
+/// rounding has made flat are dropped (order_primitives). Bicubic patches stay as they are.
 ///
 /// Checks: `longest` > 0; fewer than 2^32 points of a mesh come out.
 void bisect_edges(Scene& scene, float longest);

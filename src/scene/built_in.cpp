@@ -8,7 +8,10 @@ struct BuiltIn {
     Scene (*make)();
 };
 
-constexpr BuiltIn kBuiltIns[] = {{"room", make_room}, {"cornell", make_cornell_box}};
+constexpr BuiltIn kBuiltIns[] = {{"room", make_room},
+                                 {"indirect", make_indirect},
+                                 {"poolhall", make_poolhall},
+                                 {"cornell", make_cornell_box}};
 
 }  // namespace
 

@@ -1,40 +1,15 @@
 // The built-in room: where everything stands.
 
 #include "scene/built_in.h"
+#include "scene/decorator.h"
 #include "scene/furniture.h"
 #include "scene/room_shell.h"
-#include "scene/shapes.h"
+#include "scene/tea_set.h"
 
 namespace chiaro {
 namespace {
 
 constexpr float kLampLuminance = 2900;  // cd/m2: about 300 lux on the free floor
-
-// Puts meshes into a scene, by name and place.
-class Decorator {
-public:
-    explicit Decorator(Scene& scene) : scene_(scene) {}
-
-    MeshId mesh(std::string name, Mesh mesh) {
-        mesh.name = std::move(name);
-        scene_.meshes.push_back(std::move(mesh));
-        return static_cast<MeshId>(scene_.meshes.size() - 1);
-    }
-    void place(std::string name, MeshId mesh, const Mat4& to_world = Mat4(1)) {
-        scene_.objects.push_back({.name = std::move(name), .mesh = mesh, .to_world = to_world});
-    }
-    void place(const std::string& name, Mesh one_of_a_kind, const Mat4& to_world = Mat4(1)) {
-        place(name, mesh(name, std::move(one_of_a_kind)), to_world);
-    }
-
-private:
-    Scene& scene_;
-};
-
-// On the floor (or at `y`), turned about its vertical.
-Mat4 standing(float x, float z, float degrees = 0, float y = 0) {
-    return moved({x, y, z}) * turned({0, 1, 0}, degrees);
-}
 
 void add_shell(Decorator& room, const Palette& palette) {
     // The window and the door share the right wall.
@@ -60,6 +35,7 @@ void add_shell(Decorator& room, const Palette& palette) {
     const MeshId curtain = room.mesh("Curtain", curtain_mesh(palette));
     room.place("Curtain 1", curtain, rail * moved({-1.06f, 0, 0}));
     room.place("Curtain 2", curtain, rail * moved({0.56f, 0, 0}));
+    room.place("Radiator", radiator_mesh(palette), right * moved({middle, 0, 0}));
     room.place("Curtain rod", curtain_rod_mesh(palette, 2.2f), rail * moved({0, kCurtainRail, 0}));
     room.place("Ceiling lamp", lamp_mesh(palette), moved({3.1f, kRoomHeight, 2.3f}));
 }
@@ -90,11 +66,27 @@ void add_library(Decorator& room, const Palette& palette) {
     room.place("Plant", plant(palette), standing(5.62f, 0.6f));
 }
 
+// Tea for two; y = 0 is the table.
+void add_tea(Decorator& room, const Palette& palette, const Mat4& table) {
+    const MeshId cup = room.mesh("Cup", teacup(palette.porcelain));
+    const MeshId plate = room.mesh("Saucer", saucer(palette.porcelain));
+    const Mat4 places[] = {standing(-0.24f, 0.2f, 25), standing(0.1f, 0.24f, -40)};
+    for (int i = 0; i < 2; ++i) {
+        const std::string number = std::to_string(i + 1);
+        room.place("Saucer " + number, plate, table * places[i]);
+        room.place("Cup " + number, cup, table * places[i] * moved({0, kSaucerWell, 0}));
+    }
+    room.place("Spoon", teaspoon(palette.silver), table * standing(-0.09f, 0.27f, 62, 0.0003f));
+    room.place("Teapot", teapot(palette.porcelain), table * standing(-0.06f, -0.02f, 28, 0.0003f));
+}
+
 void add_dining_corner(Decorator& room, const Palette& palette) {
     constexpr float kX = 4.6f;
     constexpr float kZ = 3.2f;
+    constexpr float kOnTable = 0.74f;
     room.place("Table", dining_table(palette), standing(kX, kZ));
-    room.place("Fruit bowl", fruit_bowl(palette), standing(kX - 0.15f, kZ, 0, 0.74f));
+    room.place("Fruit bowl", fruit_bowl(palette), standing(kX + 0.33f, kZ - 0.12f, 0, kOnTable));
+    add_tea(room, palette, moved({kX - 0.2f, kOnTable, kZ}));
     const MeshId mesh = room.mesh("Chair", chair(palette));
     room.place("Chair 1", mesh, standing(kX - 0.37f, kZ - 0.56f, 4));
     room.place("Chair 2", mesh, standing(kX + 0.38f, kZ - 0.53f, -3));
@@ -119,7 +111,11 @@ Scene make_room() {
                      {.name = "table",
                       .eye = {2.7f, 1.45f, 4.3f},
                       .target = {4.5f, 0.7f, 2.9f},
-                      .vertical_fov = 50}};
+                      .vertical_fov = 50},
+                     {.name = "tea",
+                      .eye = {3.95f, 1.12f, 4.02f},
+                      .target = {4.42f, 0.78f, 3.2f},
+                      .vertical_fov = 40}};
     check_scene(scene);
     return scene;
 }

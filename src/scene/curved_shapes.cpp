@@ -33,6 +33,20 @@ Vec4 turned_by(Vec4 profile, Vec4 circle) {
     return {profile.x * circle.x, profile.y * circle.w, profile.x * circle.y, profile.w * circle.w};
 }
 
+// Unit tangent of the curve through a run of points without edges, at one of them.
+Vec2 tangent_at(std::span<const Vec2> run, std::size_t i) {
+    const std::size_t last = run.size() - 1;
+    const bool ends = i == 0 || i == last;
+    if (!ends) return glm::normalize(run[i + 1] - run[i - 1]);
+    const Vec2 chord = i == 0 ? run[1] - run[0] : run[last] - run[last - 1];
+    if (last == 1) return glm::normalize(chord);
+    if (run[i].x == 0) return {i == 0 ? 1 : -1, 0};
+    // As on a circle, the tangents at both ends of a chord stand in one angle to it.
+    const Vec2 along = glm::normalize(chord);
+    const Vec2 other = tangent_at(run, i == 0 ? 1 : last - 1);
+    return 2 * glm::dot(along, other) * along - other;
+}
+
 }  // namespace
 
 CubicCurve line_curve(Vec2 from, Vec2 to) {
@@ -51,6 +65,22 @@ CubicCurve arc_curve(Vec2 centre, float radius, float from, float to) {
     const Vec2 b = (a + c) / (1 + glm::dot(a, c));
     return elevated(with_weight(centre + radius * a, 1), with_weight(centre + radius * b, w),
                     with_weight(centre + radius * c, 1));
+}
+
+std::vector<CubicCurve> smooth_profile(std::span<const Vec2> points) {
+    std::vector<CubicCurve> curves;
+    std::size_t start = 0;
+    for (std::size_t end = 1; end <= points.size(); ++end) {
+        if (end < points.size() && points[end] != points[end - 1]) continue;
+        const std::span<const Vec2> run = points.subspan(start, end - start);
+        for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+            const float reach = glm::distance(run[i], run[i + 1]) / 3;
+            curves.push_back(bezier_curve(run[i], run[i] + reach * tangent_at(run, i),
+                                          run[i + 1] - reach * tangent_at(run, i + 1), run[i + 1]));
+        }
+        start = end;
+    }
+    return curves;
 }
 
 Mesh revolve(std::span<const CubicCurve> profile) {

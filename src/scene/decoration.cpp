@@ -1,4 +1,5 @@
 #include "base/random.h"
+#include "scene/curved_shapes.h"
 #include "scene/furniture.h"
 #include "scene/shapes.h"
 
@@ -18,20 +19,9 @@ void add_book(Mesh& mesh, Vec3 size, bool upright, MaterialId cloth, MaterialId 
     add(mesh, box(low, high, kAllFaces & ~page_sides), pages, placement);
 }
 
-// A ball on y = 0.
-Mesh ball(float radius, int sides, int rows) {
-    std::vector<Vec2> profile;
-    for (int j = 0; j <= rows; ++j) {
-        const float angle = kPi * static_cast<float>(j) / static_cast<float>(rows);
-        const bool pole = j == 0 || j == rows;
-        profile.push_back({pole ? 0.0f : radius * std::sin(angle), radius * (1 - std::cos(angle))});
-    }
-    return lathe(profile, sides);
-}
-
 // An arching blade from the origin towards +z, folded along its middle.
 Mesh leaf(float length, float width, float rise, float droop) {
-    return sheet(2, 4, [=](float u, float v) {
+    return sheet(2, 8, [=](float u, float v) {
         const float across = 2 * u - 1;
         const float half = 0.5f * width * std::sin(kPi * (0.08f + 0.9f * v)) + 0.002f;
         const float height = rise * v - droop * v * v + 0.25f * half * std::abs(across);
@@ -96,6 +86,22 @@ Mesh rug(const Palette& palette) {
         quad({-h.x, kThickness, h.y}, {h.x, kThickness, h.y}, {h.x, kThickness, -h.y},
              {-h.x, kThickness, -h.y}),
         palette.rug);
+
+    // A fringe on the short sides, its tassels a little unlike each other.
+    constexpr int kTassels = 60;
+    Rng rng(31);
+    for (const float side : {-1.0f, 1.0f})
+        for (int i = 0; i < kTassels; ++i) {
+            const float z = kSize.y * ((static_cast<float>(i) + 0.5f) / kTassels - 0.5f);
+            const float sway = 0.012f * (rng.uniform() - 0.5f);
+            const Mesh tassel = sheet(1, 2, [&](float u, float v) {
+                return Vec3(0.5f * kSize.x - 0.002f + 0.05f * v,
+                            0.5f * kThickness * (1 - v) + 0.002f,
+                            0.01f * (0.5f - u) * (1 + 0.5f * v) + sway * v);
+            });
+            add(mesh, tassel, palette.rug_border,
+                moved({0, 0, z}) * turned({0, 1, 0}, side > 0 ? 0 : 180));
+        }
     return mesh;
 }
 
@@ -105,9 +111,9 @@ Mesh floor_lamp(const Palette& palette) {
     const Vec2 shade[] = {{0.24f, 1.33f},  {0.16f, 1.65f},  {0.16f, 1.65f},  {0.157f, 1.65f},
                           {0.157f, 1.65f}, {0.237f, 1.33f}, {0.237f, 1.33f}, {0.24f, 1.33f}};
     Mesh mesh;
-    add(mesh, lathe(stand, 10), palette.brass);
-    add(mesh, lathe(shade, 16), palette.shade);
-    add(mesh, ball(0.035f, 8, 4), palette.ceramic, moved({0, 1.4405f, 0}));
+    add(mesh, revolve(smooth_profile(stand)), palette.brass);
+    add(mesh, revolve(smooth_profile(shade)), palette.shade);
+    add(mesh, curved_sphere(0.035f), palette.ceramic, moved({0, 1.4755f, 0}));
     // Three thin spokes hold the shade.
     for (const float turn : {0.0f, 120.0f, 240.0f})
         add(mesh, bar({0.011f, 1.43f, 0}, {0.213f, 1.43f, 0}, {0, 0, 1}, {0.004f, 0.004f}),
@@ -163,7 +169,7 @@ Mesh vase(const Palette& palette) {
                             {0.032f, 0.24f}, {0.045f, 0.28f}, {0.045f, 0.28f}, {0.04f, 0.28f},
                             {0.04f, 0.28f},  {0.027f, 0.24f}, {0, 0.2f}};
     Mesh mesh;
-    add(mesh, lathe(profile, 10), palette.glaze);
+    add(mesh, revolve(smooth_profile(profile)), palette.glaze);
     return mesh;
 }
 
@@ -172,11 +178,11 @@ Mesh fruit_bowl(const Palette& palette) {
                             {0.15f, 0.085f}, {0.144f, 0.085f}, {0.144f, 0.085f}, {0.115f, 0.051f},
                             {0.06f, 0.024f}, {0, 0.02f}};
     Mesh mesh;
-    add(mesh, lathe(profile, 12), palette.ceramic);
-    const Mesh orange = ball(0.042f, 8, 4);
-    add(mesh, orange, palette.fruit, moved({-0.047f, 0.031f, 0.012f}));
-    add(mesh, orange, palette.fruit, moved({0.045f, 0.032f, 0.028f}));
-    add(mesh, orange, palette.fruit, moved({0.004f, 0.033f, -0.058f}));
+    add(mesh, revolve(smooth_profile(profile)), palette.ceramic);
+    const Mesh orange = curved_sphere(0.042f);
+    add(mesh, orange, palette.fruit, moved({-0.047f, 0.073f, 0.012f}));
+    add(mesh, orange, palette.fruit, moved({0.045f, 0.074f, 0.028f}));
+    add(mesh, orange, palette.fruit, moved({0.004f, 0.075f, -0.058f}));
     return mesh;
 }
 

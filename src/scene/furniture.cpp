@@ -24,7 +24,9 @@ Mesh padded(Vec3 low, Vec3 high, float chamfer) {
 // Four round legs that lean outward, from the floor to `height`, under the corners of a top.
 void add_round_legs(Mesh& mesh, MaterialId material, Vec2 half_size, float height, Vec2 radii,
                     int sides) {
-    const Vec2 profile[] = {{radii.x, 0}, {radii.y, height}};
+    // Points in the middle, as both ends are covered: by the floor and by the top.
+    const Vec2 profile[] = {
+        {radii.x, 0}, {glm::mix(radii.x, radii.y, 0.6f), 0.5f * height}, {radii.y, height}};
     const Mesh leg = lathe(profile, sides);
     for (const float x : {-half_size.x, half_size.x})
         for (const float z : {-half_size.y, half_size.y})

@@ -1,30 +1,9 @@
 #include "scene/room_materials.h"
 
+#include "scene/make_material.h"
+
 namespace chiaro {
 namespace {
-
-MaterialId add_material(Scene& scene, Material material) {
-    scene.materials.push_back(std::move(material));
-    return static_cast<MaterialId>(scene.materials.size() - 1);
-}
-
-MaterialId matte(Scene& scene, std::string name, Rgb reflectance) {
-    return add_material(scene, {.name = std::move(name), .base_color = reflectance});
-}
-
-TextureId add_texture(Scene& scene, Texture texture) {
-    scene.textures.push_back(std::move(texture));
-    return static_cast<TextureId>(scene.textures.size() - 1);
-}
-
-// `tile`: metres that the texture covers; 1 where coordinates are already from 0 to 1.
-MaterialId textured(Scene& scene, std::string name, TextureId texture, float tile,
-                    Rgb tint = Rgb(1)) {
-    return add_material(scene,
-                        {.name = std::move(name),
-                         .base_color = tint,
-                         .base_color_texture = {.texture = texture, .scale = Vec2(1 / tile)}});
-}
 
 void add_shell_materials(Scene& scene, Palette& palette) {
     palette.wall = matte(scene, "Wall paint", {0.74f, 0.71f, 0.65f});
@@ -53,7 +32,9 @@ void add_furniture_materials(Scene& scene, Palette& palette) {
 void add_small_materials(Scene& scene, Palette& palette) {
     palette.shade = matte(scene, "Lamp shade", {0.76f, 0.70f, 0.58f});
     palette.ceramic = matte(scene, "White ceramic", {0.75f, 0.74f, 0.71f});
-    palette.glaze = matte(scene, "Blue glaze", {0.06f, 0.17f, 0.32f});
+    palette.glaze = glossy(scene, "Blue glaze", {0.06f, 0.17f, 0.32f}, 0.15f);
+    palette.porcelain = glossy(scene, "Porcelain", {0.76f, 0.75f, 0.71f}, 0.1f);
+    palette.silver = glossy(scene, "Silver", {0.84f, 0.82f, 0.78f}, 0.15f, 1);
     palette.terracotta = matte(scene, "Terracotta", {0.50f, 0.21f, 0.11f});
     palette.soil = matte(scene, "Soil", {0.06f, 0.045f, 0.03f});
     palette.leaf = matte(scene, "Leaf", {0.08f, 0.21f, 0.05f});

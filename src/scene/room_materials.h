@@ -13,6 +13,7 @@ struct Palette {
     MaterialId oak, walnut, metal, brass, glass;
     MaterialId sofa, pillow, throw_pillow, curtain, chair_seat, rug, rug_border;
     MaterialId shade, ceramic, glaze, terracotta, soil, leaf, fruit;
+    MaterialId porcelain, silver;  // glossy, as glaze is
     MaterialId pages, passe_partout, lamp;
     std::array<MaterialId, 3> pictures;
     std::array<MaterialId, 10> books;

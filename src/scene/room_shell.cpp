@@ -106,7 +106,7 @@ Mesh curtain_mesh(const Palette& palette) {
         return Vec3(kWidth * u, glm::mix(0.015f, kCurtainRail - 0.03f, v), depth * std::sin(phase));
     };
     Mesh mesh;
-    add(mesh, sheet(33, 1, point), palette.curtain);
+    add(mesh, sheet(66, 2, point), palette.curtain);
     return mesh;
 }
 
@@ -153,6 +153,29 @@ Mesh door_mesh(const Palette& palette) {
     const Mat4 at_lock = moved({0.065f, 1.02f, kLeaf});
     add(mesh, lathe(rose, 10), palette.brass, at_lock * turned({1, 0, 0}, 90));
     add(mesh, box({-0.012f, -0.009f, 0.05f}, {0.11f, 0.009f, 0.064f}), palette.brass, at_lock);
+    return mesh;
+}
+
+Mesh radiator_mesh(const Palette& palette) {
+    constexpr int kSections = 12;
+    constexpr int kSides = 7;
+    constexpr float kPitch = 0.075f;
+    const float half = 0.5f * kPitch * (kSections - 1);
+    const Vec2 column[] = {{0.016f, 0.105f}, {0.026f, 0.115f}, {0.026f, 0.16f},  {0.017f, 0.19f},
+                           {0.017f, 0.61f},  {0.026f, 0.64f},  {0.026f, 0.685f}, {0, 0.7f}};
+    // Their ends stand out, as taps do: light is known at corners that are seen.
+    const float end = half + 0.05f;
+    const Vec2 hub[] = {{0, -end},     {0.016f, -end}, {0.016f, -end},
+                        {0.016f, end}, {0.016f, end},  {0, end}};
+    const Mesh tube = lathe(column, kSides);
+    const Mesh pipe = lathe(hub, kSides);
+    Mesh mesh;
+    for (const float z : {0.065f, 0.125f}) {
+        for (int i = 0; i < kSections; ++i)
+            add(mesh, tube, palette.woodwork, moved({kPitch * static_cast<float>(i) - half, 0, z}));
+        for (const float y : {0.14f, 0.66f})
+            add(mesh, pipe, palette.woodwork, moved({0, y, z}) * turned({0, 0, 1}, -90));
+    }
     return mesh;
 }
 

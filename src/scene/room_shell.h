@@ -35,6 +35,9 @@ inline constexpr float kCurtainDistance = 0.1f;  // from the wall
 Mesh door_mesh(const Palette& palette);
 inline constexpr float kDoorWidth = 0.84f;
 
+/// In a wall's frame, about x = 0: a cast-iron radiator of many columns, under a window.
+Mesh radiator_mesh(const Palette& palette);
+
 /// All round the room.
 Mesh skirting_mesh(const Palette& palette);
 Mesh cornice_mesh(const Palette& palette);

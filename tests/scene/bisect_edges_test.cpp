@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -18,9 +19,10 @@ namespace {
 using namespace tiny;
 
 // Calls use(a, b, c) with the points of each triangle of a mesh; a quad is the two of its surface.
+// Bicubic patches, which are not divided, have none.
 template <typename Use>
 void for_each_triangle(const Mesh& mesh, const Use& use) {
-    for (const Primitive& p : mesh.primitives) {
+    for (const Primitive& p : std::span(mesh.primitives).subspan(mesh.bicubics.size())) {
         const auto& c = p.corners;
         use(c[0], c[1], p.is_quad() ? c[3] : c[2]);
         if (p.is_quad()) use(c[2], c[3], c[1]);

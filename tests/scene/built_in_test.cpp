@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/solids.h"
 #include "scene/surface.h"
 
 #include <algorithm>
@@ -9,12 +10,6 @@
 
 namespace chiaro {
 namespace {
-
-std::size_t primitive_count(const Scene& scene) {
-    std::size_t count = 0;
-    for (const Object& object : scene.objects) count += scene.mesh_of(object).primitives.size();
-    return count;
-}
 
 std::vector<Vec3> world_corners(const Scene& scene, const Object& object,
                                 const Primitive& primitive) {
@@ -26,7 +21,8 @@ std::vector<Vec3> world_corners(const Scene& scene, const Object& object,
 }
 
 TEST(BuiltIn, EveryNameIsASceneAndNoOtherIs) {
-    EXPECT_EQ(built_in_names(), (std::vector<std::string>{"room", "cornell"}));
+    EXPECT_EQ(built_in_names(),
+              (std::vector<std::string>{"room", "indirect", "poolhall", "cornell"}));
     for (const std::string& name : built_in_names()) EXPECT_TRUE(built_in_scene(name).has_value());
     EXPECT_FALSE(built_in_scene("no such room").has_value());
     EXPECT_FALSE(built_in_scene("").has_value());
