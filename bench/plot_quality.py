@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 
 from results import draw_error, finish_error, seconds_to, write_table
 
-ORDER = ["cornell", "room", "kitchen", "classroom"]
+ORDER = ["cornell", "room", "indirect", "poolhall", "kitchen", "classroom"]
 NAMES = {"best": "Shading Cache, best scheme", "paper": "Shading Cache, paper's scheme",
          "best, traced": "best scheme, paths traced to their ends", "path": "path tracing a pixel"}
 COLORS = {"best": "tab:blue", "best, traced": "tab:green", "paper": "tab:orange", "path": "tab:gray"}

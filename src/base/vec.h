@@ -68,12 +68,15 @@ struct Frame {
     Vec3 to_local(Vec3 v) const { return {glm::dot(s, v), glm::dot(t, v), glm::dot(n, v)}; }
 };
 
-/// The factor by which lengths grow at most, or somewhat more.
+/// The factor by which lengths grow at most; where axes do not stay at right angles, up to 1.8
+/// times as much.
 inline float largest_stretch(const Mat4& affine) {
-    float squared = 0;
-    for (int column = 0; column < 3; ++column)
-        squared += glm::dot(Vec3(affine[column]), Vec3(affine[column]));
-    return std::sqrt(squared);
+    const Vec3 x(affine[0]), y(affine[1]), z(affine[2]);
+    const float xx = glm::dot(x, x), yy = glm::dot(y, y), zz = glm::dot(z, z);
+    const float most = glm::max(glm::max(xx, yy), zz);
+    const float skew = glm::max(glm::max(std::abs(glm::dot(x, y)), std::abs(glm::dot(y, z))),
+                                std::abs(glm::dot(z, x)));
+    return std::sqrt(skew <= 1e-5f * most ? most : xx + yy + zz);
 }
 
 inline bool is_finite(Vec3 v) {

@@ -8,6 +8,9 @@ namespace {
 
 constexpr float kPixels = 0.25f;
 
+// Points that one object may take; closer looks are coarser than kPixels would have it.
+constexpr std::size_t kMostPoints = std::size_t{1} << 21;
+
 // What a view asks of surfaces at a place.
 class Fineness {
 public:
@@ -65,14 +68,17 @@ std::size_t show_curves(RayCaster& rays, const View& view, int threads) {
         const float known = rays.curve_tolerance(object.mesh);
         const float stretch = largest_stretch(object.to_world);
         // A hundredth of what is known is as fine as anybody needs who stands on the surface.
+        float coarser = 1;
         const auto tolerance = [&](const Box& box) {
             const float wanted =
                 fineness.tolerance(corners_in_world(box, object.to_world)) / stretch;
-            return std::clamp(wanted, 0.01f * known, known);
+            return std::clamp(coarser * wanted, coarser * 0.01f * known, known);
         };
         Box box;
         for (const BicubicPatch& patch : mesh.bicubics) box.add(hull(patch));
         if (!(tolerance(box) < known)) continue;
+        while (coarser < 100 && grid_points(mesh.bicubics, tolerance, threads) > kMostPoints)
+            coarser = std::min(4 * coarser, 100.0f);
         shown.push_back({static_cast<ObjectId>(i), tessellate(mesh.bicubics, tolerance, threads)});
         triangles += shown.back().grids.triangles();
     }

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -74,17 +76,18 @@ void ObjFreeForm::read_parameters() {
         lines_.refuse(fmt::format("parm: \"{}\" is neither u nor v", printable(name)));
     std::vector<float>& parameters = parameters_[name == "u" ? 0 : 1];
     parameters.clear();
-    while (const std::optional<float> value = lines_.optional_number("parm")) {
-        if (!parameters.empty() && !(*value > parameters.back()))
-            lines_.refuse("parm: the values do not increase");
+    while (const std::optional<float> value = lines_.optional_number("parm"))
         parameters.push_back(*value);
-    }
     if (parameters.size() < 2) lines_.refuse("parm: there are fewer than 2 values");
 }
 
 std::uint32_t ObjFreeForm::pieces(int direction) const {
     const std::vector<float>& parameters = parameters_[direction];
     if (parameters.empty()) return 1;
+    // Those of other types are knots, which may repeat.
+    if (std::ranges::adjacent_find(parameters, std::greater_equal{}) != parameters.end())
+        lines_.refuse(fmt::format("parm: the values of the surface of line {} do not increase",
+                                  surface_.line));
     const std::array<float, 2> whole = {parameters.front(), parameters.back()};
     if (range_[direction] != whole)
         lines_.refuse(fmt::format(

@@ -68,7 +68,7 @@ private:
     }
 
     Vec4 control_point(const ObjCorner& corner) const {
-        constexpr float kLeast = 1e-4f, kMost = 1e4f;
+        constexpr float kLeast = 0.01f, kMost = 100;
         const Vec3 place = geometry_.v[corner.v];
         const bool weighted = surface_.shape.rational && !geometry_.weights.empty();
         const float weight = weighted ? geometry_.weights[corner.v] : 1;

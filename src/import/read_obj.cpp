@@ -47,7 +47,9 @@ public:
         check_indices();
         if (faces_ == 0 && surfaces_ == 0) refuse_nothing();
         make_objects();
-        materials_.load_textures(drop_unseen(scene_, file_.where));
+        const std::vector<bool> in_use = drop_unseen(scene_, file_.where);
+        decide_thin(scene_);
+        materials_.load_textures(in_use);
         add_warnings();
         return std::move(scene_);
     }
@@ -284,7 +286,6 @@ private:
         }
         for (Material& material : scene_.materials)
             material.name = material_name(material.name, "material");
-        decide_thin(scene_);
     }
 
     void add_warnings() {

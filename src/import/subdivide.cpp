@@ -23,6 +23,7 @@ namespace {
 // would take more memory and time than a surface is worth.
 constexpr std::size_t kMostCorners = 500'000;
 constexpr std::uint32_t kMostAtVertex = 1000;
+constexpr double kMostSquares = 8e6;
 
 // Cages are refined up to so many levels while patches are no more than these.
 constexpr int kMostLevels = 3;
@@ -71,6 +72,9 @@ void check_size(const Cage& cage, const std::string& where) {
     for (const std::uint32_t vertex : cage.corners) ++faces_at[vertex];
     if (std::ranges::any_of(faces_at, [](std::uint32_t n) { return n > kMostAtVertex; }))
         refuse(fmt::format("more than {} faces meet at a vertex", kMostAtVertex));
+    double squares = 0;  // what OpenSubdiv's tables grow with
+    for (const std::uint32_t n : faces_at) squares += double(n) * n;
+    if (squares > kMostSquares) refuse("too many faces meet at its vertices");
     if (std::ranges::any_of(cage.corner_counts, [](std::uint32_t n) { return n > kMostAtVertex; }))
         refuse(fmt::format("a face has more than {} corners", kMostAtVertex));
     for (const Vec3 p : cage.positions)
@@ -203,6 +207,10 @@ Mesh subdivide(Cage cage, const std::string& where, std::vector<std::string>& wa
 void subdivide_meshes(Scene& scene, const std::string& where) {
     for (Mesh& mesh : scene.meshes) {
         if (!mesh.bicubics.empty()) continue;
+        if (!mesh.uvs[1].empty())
+            scene.warnings.push_back(
+                fmt::format("{}: the second texture coordinates of mesh \"{}\" were left out",
+                            where, printable(mesh.name)));
         mesh = subdivide(cage_of(mesh), where, scene.warnings);
         order_primitives(mesh);
     }

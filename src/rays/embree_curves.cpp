@@ -11,10 +11,10 @@ void EmbreeScene::make_curves(MeshId id, const Scene& scene) {
     const Mesh& mesh = scene.meshes[index_of(id)];
     Box box;
     for (const BicubicPatch& patch : mesh.bicubics) box.add(hull(patch));
-    const float error = curve_tolerance_ * box.diagonal();
-    curve_errors_[index_of(id)] = error;
+    const float tolerance = curve_tolerance_ * box.diagonal();
+    curve_tolerances_[index_of(id)] = tolerance;
     grids_[index_of(id)] = tessellate(
-        mesh.bicubics, [&](const Box&) { return error; }, threads_);
+        mesh.bicubics, [&](const Box&) { return tolerance; }, threads_);
 }
 
 // The points are Embree's afterwards.
@@ -41,6 +41,15 @@ void EmbreeScene::attach_curves(RTCScene mesh_scene, PatchGrids& grids, const Me
 void EmbreeScene::show_curves(const Scene& scene, std::vector<ShownCurves> curves) {
     stop_showing();
     if (curves.empty()) return;
+    try {
+        build_eye(scene, curves);
+    } catch (...) {
+        stop_showing();
+        throw;
+    }
+}
+
+void EmbreeScene::build_eye(const Scene& scene, std::vector<ShownCurves>& curves) {
     arena_.execute([&] {
         for (ShownCurves& some : curves) show(scene, some);
 
@@ -62,7 +71,7 @@ void EmbreeScene::show_curves(const Scene& scene, std::vector<ShownCurves> curve
 void EmbreeScene::show(const Scene& scene, ShownCurves& curves) {
     const Object& object = scene.objects[index_of(curves.object)];
     const Mesh& mesh = scene.mesh_of(object);
-    Shown shown = {.object = curves.object};
+    Shown& shown = shown_.emplace_back(Shown{.object = curves.object});
     shown.mesh = rtcNewScene(device_);
     rtcSetSceneBuildQuality(shown.mesh, RTC_BUILD_QUALITY_MEDIUM);
     rtcSetSceneFlags(shown.mesh, scene_flags());
@@ -78,15 +87,14 @@ void EmbreeScene::show(const Scene& scene, ShownCurves& curves) {
     shown.instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(shown.instance, shown.mesh);
     set_matrix(shown.instance, object.to_world);
-    shown_.push_back(std::move(shown));
 }
 
 void EmbreeScene::stop_showing() {
     if (eye_ != nullptr) rtcReleaseScene(eye_);
     eye_ = nullptr;
     for (const Shown& shown : shown_) {
-        rtcReleaseGeometry(shown.instance);
-        rtcReleaseScene(shown.mesh);
+        if (shown.instance != nullptr) rtcReleaseGeometry(shown.instance);
+        if (shown.mesh != nullptr) rtcReleaseScene(shown.mesh);
     }
     shown_.clear();
 }

@@ -108,7 +108,7 @@ void EmbreeScene::build(const Scene& scene) {
     meshes_.resize(scene.meshes.size(), nullptr);
     curved_.resize(scene.meshes.size());
     grids_.resize(scene.meshes.size());
-    curve_errors_.resize(scene.meshes.size(), 0.0f);
+    curve_tolerances_.resize(scene.meshes.size(), 0.0f);
     for (const Object& object : scene.objects)
         if (shows_something(scene, object) && meshes_[index_of(object.mesh)] == nullptr)
             build_mesh(object.mesh, scene);
@@ -217,7 +217,7 @@ void EmbreeScene::place(const Scene& scene, std::size_t object) {
     const Mat4& m = scene.objects[object].to_world;
     instance.normal_matrix = scaled_normal_matrix(m);
     // What the eye sees may be off as far on the other side.
-    instance.curve_error = 2 * curve_errors_[instance.mesh] * largest_stretch(m);
+    instance.curve_error = 2 * grids_[instance.mesh].error * largest_stretch(m);
     set_matrix(instance.geometry, m);
 
     // A box round the turned box of the mesh is no smaller than the object.

@@ -82,7 +82,7 @@ public:
     void set_transform(const Scene& scene, ObjectId object);
     /// See RayCaster.
     void show_curves(const Scene& scene, std::vector<ShownCurves> curves);
-    float curve_tolerance(MeshId mesh) const { return curve_errors_[index_of(mesh)]; }
+    float curve_tolerance(MeshId mesh) const { return curve_tolerances_[index_of(mesh)]; }
 
 private:
     void build(const Scene& scene);
@@ -106,6 +106,7 @@ private:
         RTCGeometry instance = nullptr;
         PatchGrids grids = {};
     };
+    void build_eye(const Scene& scene, std::vector<ShownCurves>& curves);
     void show(const Scene& scene, ShownCurves& curves);
     void stop_showing();
     const Shown* shown_of(std::uint32_t object) const;
@@ -121,7 +122,7 @@ private:
     std::vector<RTCScene> meshes_;
     std::vector<PatchGrids> grids_;          // by mesh
     float curve_tolerance_;                  // of a mesh's size
-    std::vector<float> curve_errors_;        // by mesh, object space
+    std::vector<float> curve_tolerances_;    // by mesh, object space
     std::vector<std::vector<bool>> curved_;  // by mesh, by primitive; empty: all are flat
     std::vector<Instance> objects_;
     bool any_single_sided_ = false;

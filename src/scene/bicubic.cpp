@@ -1,28 +1,38 @@
 #include "scene/bicubic.h"
 
-#include <algorithm>
-#include <utility>
+#include <optional>
 
 namespace chiaro {
 namespace {
 
-// Bernstein polynomials of degree 3 and their derivatives.
+// Bernstein polynomials of degree 3.
 std::array<float, 4> bernstein(float t) {
     const float s = 1 - t;
     return {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
 }
-std::array<float, 4> bernstein_slopes(float t) {
+// Of degree 2, times 3: what differences of control points weigh in a derivative.
+std::array<float, 3> slope_weights(float t) {
     const float s = 1 - t;
-    return {-3 * s * s, 3 * s * (s - 2 * t), 3 * t * (2 * s - t), 3 * t * t};
+    return {3 * s * s, 6 * s * t, 3 * t * t};
 }
 
-Vec4 blend(const BicubicPatch& patch, const std::array<float, 4>& u,
-           const std::array<float, 4>& v) {
-    Vec4 sum(0);
-    for (int j = 0; j < 4; ++j)
-        sum += v[j] * (u[0] * patch.at(0, j) + u[1] * patch.at(1, j) + u[2] * patch.at(2, j) +
-                       u[3] * patch.at(3, j));
-    return sum;
+Vec4 blend(const std::array<Vec4, 4>& points, const std::array<float, 4>& weights) {
+    return weights[0] * points[0] + weights[1] * points[1] + weights[2] * points[2] +
+           weights[3] * points[3];
+}
+Vec4 slope(const std::array<Vec4, 4>& points, const std::array<float, 3>& weights) {
+    return weights[0] * (points[1] - points[0]) + weights[1] * (points[2] - points[1]) +
+           weights[2] * (points[3] - points[2]);
+}
+
+// Row j of a patch, seen from `origin`, so that nothing cancels far from the origin.
+CubicCurve row_from(const BicubicPatch& patch, int j, Vec3 origin) {
+    CubicCurve row;
+    for (int i = 0; i < 4; ++i) {
+        const Vec4& p = patch.at(i, j);
+        row[i] = {Vec3(p) - p.w * origin, p.w};
+    }
+    return row;
 }
 
 std::array<CubicCurve, 2> halves(const CubicCurve& c) {
@@ -41,30 +51,54 @@ BicubicPatch make_bicubic(const std::array<Vec3, 16>& points) {
 }
 
 PatchPoint patch_point(const BicubicPatch& patch, Vec2 uv) {
+    const Vec3 origin = patch.place(0, 0);
     const auto u = bernstein(uv.x), v = bernstein(uv.y);
-    const Vec4 p = blend(patch, u, v);
-    const Vec4 du = blend(patch, bernstein_slopes(uv.x), v);
-    const Vec4 dv = blend(patch, u, bernstein_slopes(uv.y));
+    const auto slope_u = slope_weights(uv.x), slope_v = slope_weights(uv.y);
+    std::array<Vec4, 4> places, slopes;  // along u, by row
+    for (int j = 0; j < 4; ++j) {
+        const CubicCurve row = row_from(patch, j, origin);
+        places[j] = blend(row, u);
+        slopes[j] = slope(row, slope_u);
+    }
+    const Vec4 p = blend(places, v), du = blend(slopes, v), dv = slope(places, slope_v);
     const Vec3 place = Vec3(p) / p.w;
-    return {place, (Vec3(du) - du.w * place) / p.w, (Vec3(dv) - dv.w * place) / p.w};
+    return {origin + place, (Vec3(du) - du.w * place) / p.w, (Vec3(dv) - dv.w * place) / p.w};
 }
 
 Vec3 patch_position(const BicubicPatch& patch, Vec2 uv) {
-    const Vec4 p = blend(patch, bernstein(uv.x), bernstein(uv.y));
+    const auto u = bernstein(uv.x), v = bernstein(uv.y);
+    std::array<Vec4, 4> places;
+    for (int j = 0; j < 4; ++j)
+        places[j] = blend({patch.at(0, j), patch.at(1, j), patch.at(2, j), patch.at(3, j)}, u);
+    const Vec4 p = blend(places, v);
     return Vec3(p) / p.w;
 }
 
+namespace {
+
+// The normal there, unless it is lost in rounding: at poles a tangent vanishes, at cusps both lie
+// in one line.
+std::optional<Vec3> normal_at(const BicubicPatch& patch, Vec2 uv, float smallest) {
+    const PatchPoint p = patch_point(patch, uv);
+    const float u = glm::length(p.du), v = glm::length(p.dv);
+    if (!(u > smallest && v > smallest)) return std::nullopt;
+    const Vec3 cross = glm::cross(p.du / u, p.dv / v);
+    const float length = glm::length(cross);
+    if (!(length > 1e-4f)) return std::nullopt;
+    return cross / length;
+}
+
+}  // namespace
+
 Vec3 patch_normal(const BicubicPatch& patch, Vec2 uv) {
-    // The cross product is lost in rounding where it is this small a part of what it could be.
-    constexpr float kLost = 1e-5f;
-    const Box box = hull(patch);
-    const float enough = kLost * box.diagonal() * box.diagonal();
-    for (const float inward : {0.0f, 1e-3f, 1e-2f, 0.1f, 0.5f}) {
-        const PatchPoint p = patch_point(patch, glm::mix(uv, Vec2(0.5f), inward));
-        const Vec3 cross = glm::cross(p.du, p.dv);
-        const float length = glm::length(cross);
-        if (length > enough) return cross / length;
-    }
+    const float smallest = 1e-6f * hull(patch).diagonal();
+    // Else a little farther inside, along both, or either.
+    const Vec2 inside(uv.x < 0.5f ? 1 : -1, uv.y < 0.5f ? 1 : -1);
+    if (const auto normal = normal_at(patch, uv, smallest)) return *normal;
+    for (const float step : {1e-3f, 1e-2f, 0.1f, 0.3f})
+        for (const Vec2 along : {Vec2(1, 1), Vec2(0, 1), Vec2(1, 0)})
+            if (const auto normal = normal_at(patch, uv + step * inside * along, smallest))
+                return *normal;
     return {0, 0, 1};
 }
 
@@ -109,8 +143,7 @@ CubicCurve patch_edge(const BicubicPatch& patch, int side) {
 }
 
 Vec3 curve_position(const CubicCurve& curve, float t) {
-    const auto b = bernstein(t);
-    const Vec4 p = b[0] * curve[0] + b[1] * curve[1] + b[2] * curve[2] + b[3] * curve[3];
+    const Vec4 p = blend(curve, bernstein(t));
     return Vec3(p) / p.w;
 }
 

@@ -56,8 +56,12 @@ std::array<LoosePatch, 2> halved(const LoosePatch& patch, bool in_u) {
 
 bool has_area(const BicubicPatch& patch) {
     const float size = hull(patch).diagonal();
-    const PatchPoint middle = patch_point(patch, Vec2(0.5f));
-    return glm::length(glm::cross(middle.du, middle.dv)) > std::max(1e-7f * size * size, 1e-18f);
+    float most = 0;
+    for (int k = 0; k < 16; ++k) {
+        const PatchPoint p = patch_point(patch, (Vec2(k % 4, k / 4) + 0.5f) / 4.0f);
+        most = std::max(most, glm::length(glm::cross(p.du, p.dv)));
+    }
+    return most > std::max(1e-7f * size * size, 1e-18f);
 }
 
 using Place = std::tuple<float, float, float>;
@@ -69,6 +73,8 @@ Place place_of(Vec3 p) {
 class Edges {
 public:
     static constexpr int kCollapsed = -1;
+    // Curves between two places; more are each taken for another one.
+    static constexpr std::size_t kMostCompared = 64;
 
     explicit Edges(std::span<const LoosePatch> patches) {
         for (const LoosePatch& patch : patches) {
@@ -82,15 +88,24 @@ public:
 
     // Edges that are to be divided, and with them all across the patches beside them.
     std::vector<bool> to_divide() const {
+        std::vector<std::vector<int>> across(ambiguous_.size());
+        for (const auto& edges : of_patches_)
+            for (int side = 0; side < 4; ++side) {
+                const int here = edges[side], there = edges[(side + 2) % 4];
+                if (here != kCollapsed && there != kCollapsed) across[here].push_back(there);
+            }
         std::vector<bool> divided = ambiguous_;
-        for (bool grows = true; grows;) {
-            grows = false;
-            for (const auto& edges : of_patches_)
-                for (int side = 0; side < 4; ++side) {
-                    const int here = edges[side], across = edges[(side + 2) % 4];
-                    if (here == kCollapsed || across == kCollapsed) continue;
-                    if (divided[here] && !divided[across]) grows = divided[across] = true;
-                }
+        std::vector<int> waiting;
+        for (std::size_t edge = 0; edge < divided.size(); ++edge)
+            if (divided[edge]) waiting.push_back(static_cast<int>(edge));
+        while (!waiting.empty()) {
+            const int edge = waiting.back();
+            waiting.pop_back();
+            for (const int other : across[edge]) {
+                if (divided[other]) continue;
+                divided[other] = true;
+                waiting.push_back(other);
+            }
         }
         return divided;
     }
@@ -113,7 +128,7 @@ private:
         const float near = 1e-3f * size + 1e-6f * max_component(glm::abs(middle));
         const auto key = std::minmax({place_of(from), place_of(to)});
         std::vector<Known>& between = by_ends_[{key.first, key.second}];
-        for (const Known& known : between)
+        for (const Known& known : std::span(between).first(std::min(between.size(), kMostCompared)))
             if (glm::distance(known.middle, middle) <= near) return known.number;
 
         const int number = static_cast<int>(ambiguous_.size());

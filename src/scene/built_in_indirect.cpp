@@ -38,7 +38,7 @@ Mesh rectangle(Vec3 a, Vec3 b, Vec3 c, Vec3 d, MaterialId material) {
 void add_shell(Decorator& gallery, const GalleryPalette& palette) {
     const float x = kWidth, y = kHeight, z = kDepth;
     const MaterialId wall = palette.plaster;
-    // SurkFaces end at the partition, behind which they are lit quite unlike.
+    // Surfaces end at the partition, behind which they are lit quite unlike.
     constexpr float kFace = kPartition + kThickness;
     Mesh floor, ceiling, back, front;
     const auto add_strip = [&](float from, float to) {

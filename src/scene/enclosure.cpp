@@ -1,5 +1,7 @@
 #include "scene/enclosure.h"
 
+#include "scene/bicubic_mesh.h"
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -21,6 +23,22 @@ double signed_volume(const Mesh& mesh, const Primitive& primitive, glm::dvec3 fr
     return volume;
 }
 
+// The same of a bicubic patch, as a grid of triangles.
+double signed_volume(const BicubicPatch& patch, glm::dvec3 from) {
+    constexpr int kAcross = 8;
+    const auto place = [&](int i, int j) {
+        return glm::dvec3(patch_position(patch, Vec2(i, j) / static_cast<float>(kAcross))) - from;
+    };
+    double volume = 0;
+    for (int j = 0; j < kAcross; ++j)
+        for (int i = 0; i < kAcross; ++i) {
+            const glm::dvec3 a = place(i, j), c = place(i + 1, j + 1);
+            volume += glm::dot(a, glm::cross(place(i + 1, j), c));
+            volume += glm::dot(a, glm::cross(c, place(i, j + 1)));
+        }
+    return volume;
+}
+
 bool uses(const Mesh& mesh, MaterialId material) {
     return std::ranges::any_of(mesh.primitives,
                                [&](const Primitive& p) { return p.material == material; });
@@ -38,9 +56,12 @@ bool encloses_volume(const Mesh& mesh, MaterialId material) {
     };
     std::vector<Edge> edges, reversed;
     double volume = 0;
-    for (const Primitive& primitive : mesh.primitives) {
+    for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
+        const Primitive& primitive = mesh.primitives[p];
         if (primitive.material != material) continue;
-        volume += signed_volume(mesh, primitive, mesh.positions.front());
+        const glm::dvec3 from = mesh.positions.front();
+        volume += is_bicubic(mesh, p) ? signed_volume(mesh.bicubics[p], from)
+                                      : signed_volume(mesh, primitive, from);
         const int count = primitive.corner_count();
         for (int i = 0; i < count; ++i) {
             const Edge edge = {place(primitive.corners[i]),

@@ -1,6 +1,9 @@
 #include "scene/tessellate.h"
 
+#include "base/error.h"
 #include "base/parallel.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +18,30 @@ constexpr int kMostSegments = 256;
 constexpr int kLooks = 8;
 constexpr float kSafety = 1.2f;
 
-// Segments, a power of two, that keep chords of a curve within `tolerance` where its second
-// derivative is at most `second`: the error is at most second / (8 n^2).
+// The error of so many chords of a curve whose second derivative is at most `second`.
+float chord_error(float second, int segments) {
+    const auto n = static_cast<float>(segments);
+    return kSafety * second / (8 * n * n);
+}
+
+// Segments, a power of two, that keep the error within `tolerance`.
 int segments_for(float second, float tolerance) {
-    const float n = std::sqrt(kSafety * second / (8 * tolerance));
     int segments = 1;
-    while (segments < kMostSegments && static_cast<float>(segments) < n) segments *= 2;
+    while (segments < kMostSegments && chord_error(second, segments) > tolerance) segments *= 2;
     return segments;
+}
+
+// The same seen from `origin`: far away, rounding would pass for curvature.
+Vec4 seen_from(Vec3 origin, const Vec4& p) {
+    return {Vec3(p) - p.w * origin, p.w};
+}
+CubicCurve seen_from(Vec3 origin, CubicCurve curve) {
+    for (Vec4& p : curve) p = seen_from(origin, p);
+    return curve;
+}
+BicubicPatch seen_from(Vec3 origin, BicubicPatch patch) {
+    for (Vec4& p : patch.points) p = seen_from(origin, p);
+    return patch;
 }
 
 Vec3 second_difference(Vec3 before, Vec3 here, Vec3 after, float step) {
@@ -36,9 +56,16 @@ CubicCurve from_lower_end(const CubicCurve& curve) {
     return there < here ? reversed(curve) : curve;
 }
 
-int segments_of(const CubicCurve& curve, const ToleranceIn& tolerance) {
-    const Box box = hull(curve);
-    if (!(box.diagonal() > 0)) return 1;
+// Of one edge: its segments, and their error.
+struct Chords {
+    int segments = 1;
+    float error = 0;
+};
+
+Chords chords_of(const CubicCurve& edge, const ToleranceIn& tolerance) {
+    const Box box = hull(edge);
+    if (!(box.diagonal() > 0)) return {};
+    const CubicCurve curve = seen_from(Vec3(edge[0]) / edge[0].w, edge);
     constexpr float kStep = 1.0f / kLooks;
     float second = 0;
     for (int k = 0; k < kLooks; ++k) {
@@ -48,15 +75,27 @@ int segments_of(const CubicCurve& curve, const ToleranceIn& tolerance) {
                                  curve_position(curve, t), curve_position(curve, t + kStep / 2),
                                  curve_position(curve, t + kStep), kStep / 2)));
     }
-    return segments_for(second, tolerance(box));
+    const int segments = segments_for(second, tolerance(box));
+    return {segments, chord_error(second, segments)};
 }
 
-// Columns and rows that the inside of a patch needs, by Filip, Magedson and Markot, "Surface
-// algorithms using bounds on derivatives", 1986: the error is at most
-// (|uu| / n^2 + 2 |uv| / (n m) + |vv| / m^2) / 8.
-std::pair<int, int> inside_segments(const BicubicPatch& patch, const ToleranceIn& tolerance) {
-    constexpr float kStep = 1.0f / kLooks, kHalf = kStep / 2;
+// The largest second derivatives of a patch.
+struct Bends {
     float uu = 0, uv = 0, vv = 0;
+
+    // Of a grid: Filip, Magedson and Markot, "Surface algorithms using bounds on derivatives",
+    // 1986.
+    float error(int columns, int rows) const {
+        const auto n = static_cast<float>(columns), m = static_cast<float>(rows);
+        return kSafety / 8 * (uu / (n * n) + 2 * uv / (n * m) + vv / (m * m));
+    }
+};
+
+Bends bends_of(const BicubicPatch& whole) {
+    const BicubicPatch patch = seen_from(whole.place(0, 0), whole);
+    constexpr float kStep = 1.0f / kLooks, kHalf = kStep / 2;
+    Bends bends;
+    auto& [uu, uv, vv] = bends;
     for (int j = 0; j < kLooks; ++j)
         for (int i = 0; i < kLooks; ++i) {
             const Vec2 at = kStep * (Vec2(i, j) + 0.5f);
@@ -71,9 +110,7 @@ std::pair<int, int> inside_segments(const BicubicPatch& patch, const ToleranceIn
             const Vec3 twist = place(1, 1) - place(-1, 1) - place(1, -1) + place(-1, -1);
             uv = std::max(uv, glm::length(twist) / (4 * kHalf * kHalf));
         }
-    // Half of the error for each direction.
-    const float half = 0.5f * tolerance(hull(patch));
-    return {segments_for(uu + uv, half), segments_for(vv + uv, half)};
+    return bends;
 }
 
 // Points of a grid's side, of `count` segments, on the polyline of an edge.
@@ -99,19 +136,28 @@ std::vector<Vec3> points_on_edge(const CubicCurve& edge, int segments, int count
 
 // How a patch is divided: its edges, and the grid that meets all of them.
 struct Plan {
-    std::array<int, 4> of_edge;
+    std::array<int, 4> of_edge;  // segments
     PatchGrid grid;
+    float error = 0;
 };
 
 Plan plan_grid(const BicubicPatch& patch, const ToleranceIn& tolerance) {
     Plan plan;
-    for (int side = 0; side < 4; ++side)
-        plan.of_edge[side] = segments_of(from_lower_end(patch_edge(patch, side)), tolerance);
-    const auto [inside_u, inside_v] = inside_segments(patch, tolerance);
+    for (int side = 0; side < 4; ++side) {
+        const Chords chords = chords_of(from_lower_end(patch_edge(patch, side)), tolerance);
+        plan.of_edge[side] = chords.segments;
+        plan.error = std::max(plan.error, chords.error);
+    }
+    // Half of the error for each direction.
+    const Bends bends = bends_of(patch);
+    const float half = 0.5f * tolerance(hull(patch));
+    const int inside_u = segments_for(bends.uu + bends.uv, half);
+    const int inside_v = segments_for(bends.vv + bends.uv, half);
     plan.grid.columns =
         static_cast<std::uint16_t>(std::max({inside_u, plan.of_edge[0], plan.of_edge[2]}));
     plan.grid.rows =
         static_cast<std::uint16_t>(std::max({inside_v, plan.of_edge[1], plan.of_edge[3]}));
+    plan.error = std::max(plan.error, bends.error(plan.grid.columns, plan.grid.rows));
     return plan;
 }
 
@@ -137,7 +183,26 @@ void fill_grid(const BicubicPatch& patch, const Plan& plan, std::span<Vec3> poin
     }
 }
 
+std::vector<Plan> make_plans(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance,
+                             int threads) {
+    std::vector<Plan> plans(patches.size());
+    parallel_for(threads, patches.size(),
+                 [&](std::size_t i) { plans[i] = plan_grid(patches[i], tolerance); });
+    return plans;
+}
+
+std::size_t points_of(std::span<const Plan> plans) {
+    std::size_t sum = 0;
+    for (const Plan& plan : plans) sum += plan.grid.points();
+    return sum;
+}
+
 }  // namespace
+
+std::size_t grid_points(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance,
+                        int threads) {
+    return points_of(make_plans(patches, tolerance, threads));
+}
 
 std::size_t PatchGrids::triangles() const {
     std::size_t count = 0;
@@ -147,15 +212,18 @@ std::size_t PatchGrids::triangles() const {
 
 PatchGrids tessellate(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance,
                       int threads) {
-    std::vector<Plan> plans(patches.size());
-    parallel_for(threads, patches.size(),
-                 [&](std::size_t i) { plans[i] = plan_grid(patches[i], tolerance); });
+    std::vector<Plan> plans = make_plans(patches, tolerance, threads);
+    if (points_of(plans) > kMostGridPoints)
+        throw Error("curved surfaces",
+                    fmt::format("one object takes more than {} points", kMostGridPoints),
+                    "allow a larger --curve-error");
     PatchGrids result;
     std::size_t points = 0;
     for (Plan& plan : plans) {
         plan.grid.first = static_cast<std::uint32_t>(points);
         points += plan.grid.points();
         result.grids.push_back(plan.grid);
+        result.error = std::max(result.error, plan.error);
     }
     result.points.resize(points);
     parallel_for(threads, patches.size(), [&](std::size_t i) {

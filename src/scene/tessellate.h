@@ -22,6 +22,8 @@ struct PatchGrids {
     std::vector<Vec3> points;      // of all patches, in the patches' space
     std::vector<PatchGrid> grids;  // by patch
 
+    float error = 0;  // a bound on how far the triangles are off; 0 of flat patches
+
     std::size_t triangles() const;
 };
 
@@ -32,7 +34,14 @@ using ToleranceIn = std::function<float(const Box&)>;
 /// Grids of up to 256 x 256 cells for each patch. An edge is divided by its own curve and the
 /// tolerance along it alone, so that patches on both sides of it agree on its points; a grid that
 /// is finer than its edge has the rest of its points there on straight lines.
+///
+/// Throws an Error where all together would have more than kMostGridPoints points.
 PatchGrids tessellate(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance,
                       int threads);
+inline constexpr std::size_t kMostGridPoints = std::size_t{1} << 27;
+
+/// How many points that would have.
+std::size_t grid_points(std::span<const BicubicPatch> patches, const ToleranceIn& tolerance,
+                        int threads);
 
 }  // namespace chiaro

@@ -89,6 +89,9 @@ TEST(ObjFreeForm, WhatIsNotSupportedIsNamed) {
     };
     const Kind table[] = {
         {"cstype bspline\ndeg 3 3\n" + surf(16) + kEnd, "surfaces of cstype bspline"},
+        {"cstype rat bspline\ndeg 3 3\nsurf 0 1 0 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16\n"
+         "parm u 0 0 0 0 1 1 1 1\nparm v 0 0 0 0 1 1 1 1\nend\n",
+         "surfaces of cstype bspline"},
         {"cstype rat cardinal\ndeg 3 3\n" + surf(16) + kEnd, "surfaces of cstype cardinal"},
         {"cstype bmatrix\ndeg 3 3\nstep 3 3\nbmat u 1 0\n" + surf(16) + kEnd,
          "surfaces of cstype bmatrix"},
@@ -140,7 +143,7 @@ TEST(ObjFreeForm, FaultsNameTheLine) {
          "a.obj:35: a face names v 17, but there are 16"},
         {"cstype\n", "a.obj:33: cstype names no type"},
         {"v 0 0 0 0\n" + rational + "surf 0 1 0 1 -1 -1 -1 -1 -1 -1 -1 -1 1 1 1 1 1 1 1 1\n" + kEnd,
-         "a.obj:36: control point 17 has the weight 0, not one from 0.0001 to 10000"},
+         "a.obj:36: control point 17 has the weight 0, not one from 0.01 to 100"},
         {"v 2e9 0 0\n" + kBezier + "surf 0 1 0 1 -1 -1 -1 -1 -1 -1 -1 -1 1 1 1 1 1 1 1 1\n" + kEnd,
          "a.obj:36: control point 17 has coordinates beyond 1e9"},
     };

@@ -93,6 +93,24 @@ TEST(CurvedRays, WhatIsShownChangesNoLight) {
     EXPECT_LT(worst, fine);
 }
 
+// An object that is moved takes with it what the eye was shown of it.
+TEST(CurvedRays, WhatIsShownMovesWithItsObject) {
+    Scene scene = one_object(curved_sphere(1));
+    RayCaster caster(scene, 1);
+    const float fine = 0.1f * caster.curve_tolerance(MeshId{0});
+    caster.show_curves(
+        {{ObjectId{0}, tessellate(
+                           scene.meshes[0].bicubics, [&](const Box&) { return fine; }, 1)}});
+    scene.objects[0].to_world[3] = Vec4(5, 0, 0, 1);
+    caster.set_transform(ObjectId{0});
+    for (const RayKind kind : {RayKind::camera, RayKind::transport}) {
+        const Hit hit = tiny::cast(caster, {{5, 0, 4}, {0, 0, -1}}, kind);
+        ASSERT_TRUE(hit);
+        EXPECT_NEAR(hit.t, 3, 1e-3f);
+        EXPECT_FALSE(tiny::cast(caster, {{0, 0, 4}, {0, 0, -1}}, kind));
+    }
+}
+
 // A pane of patches that stops half of the light does so once, also where the ray meets an edge
 // between the cells that it is divided into.
 TEST(CurvedRays, SeamsOfCellsCountOnce) {

@@ -1,6 +1,7 @@
 // Rational bicubic patches: what they are, and what meshes make of them.
 #include "scene/bicubic.h"
 
+#include "base/error.h"
 #include "base/random.h"
 #include "scene/bicubic_mesh.h"
 #include "scene/curved_shapes.h"
@@ -83,11 +84,10 @@ TEST(Bicubic, SpheresAreExact) {
     }
 }
 
-// A sphere of four lunes, whose meridians all run from pole to pole, would have edges that are told
-// apart by nothing: it is divided into eight patches. What is in order stays as it is.
+// Two petals between the same two poles have edges that nothing tells apart: each is divided
+// across. What is in order stays as it is.
 TEST(Bicubic, EdgesAreKnownByTheirEnds) {
     const Mesh sphere = curved_sphere(1);
-    // A lune from two octants: degree elevation does not give it, so four flat petals do.
     Mesh petals;
     for (int k = 0; k < 2; ++k) {
         const float bulge = k == 0 ? 1.0f : -1.0f;
@@ -112,6 +112,42 @@ TEST(Bicubic, EdgesAreKnownByTheirEnds) {
     EXPECT_EQ(order_primitives(again), 0u);
     EXPECT_EQ(again.bicubics.size(), 8u);
     EXPECT_EQ(again.positions.size(), sphere.positions.size());
+}
+
+// Far from the origin, and thin as a thread, tangents and normals are still those of the shape: a
+// sphere of 3 cm at 1000 m, whose points are rounded to 0.06 mm, and a strip of 10 m by 0.1 mm.
+TEST(Bicubic, NormalsHoldFarAwayAndOnStrips) {
+    const BicubicPatch octant = curved_sphere(0.03f).bicubics[1];
+    Mat4 far(1);
+    far[3] = Vec4(1000, 0, 0, 1);
+    const BicubicPatch there = transformed(octant, far);
+    Rng rng(6);
+    for (int k = 0; k < 200; ++k) {
+        const Vec2 uv(rng.uniform(), 0.9f * rng.uniform());
+        EXPECT_GT(glm::dot(patch_normal(there, uv), patch_normal(octant, uv)), 0.9998f);
+    }
+    std::array<Vec3, 16> points;
+    for (int k = 0; k < 16; ++k)
+        points[k] = {10 * static_cast<float>(k % 4) / 3, 1e-4f * static_cast<float>(k / 4) / 3, 0};
+    EXPECT_EQ(patch_normal(make_bicubic(points), Vec2(0.5f)), Vec3(0, 0, 1));
+    std::swap(points[0], points[12]);  // mirrored, corner by corner
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) points[4 * j + i].y = 1e-4f * static_cast<float>(3 - j) / 3;
+    for (int k = 0; k < 16; ++k) points[k].x = 10 * static_cast<float>(k % 4) / 3;
+    EXPECT_EQ(patch_normal(make_bicubic(points), Vec2(0.5f)), Vec3(0, 0, -1));
+}
+
+// A surface whose derivative vanishes on a line through its middle is a surface for all that: u
+// runs as 0, 1, 0, 1 there and back.
+TEST(Bicubic, ACuspInTheMiddleIsNoLackOfArea) {
+    std::array<Vec3, 16> points;
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i)
+            points[4 * j + i] = {static_cast<float>(i % 2), static_cast<float>(j) / 3, 0};
+    Mesh mesh;
+    add_bicubic(mesh, make_bicubic(points), MaterialId{0});
+    EXPECT_EQ(order_primitives(mesh), 0u);
+    EXPECT_EQ(std::abs(patch_normal(mesh.bicubics[0], Vec2(0.5f)).z), 1);
 }
 
 // Patches without area say nothing and are dropped.
@@ -158,6 +194,22 @@ TEST(Tessellate, IsWithinTheTolerance) {
                 }
             EXPECT_LT(worst, tolerance);
         }
+}
+
+// What is flat, or as good as flat, is two triangles, however far away its rounding makes it
+// uneven; what takes too many points is refused before memory is.
+TEST(Tessellate, TakesNoMoreThanItNeeds) {
+    std::array<Vec3, 16> points;
+    for (int k = 0; k < 16; ++k)
+        points[k] = Vec3(1e4f + static_cast<float>(k % 4) / 3, static_cast<float>(k / 4) / 3, 1e4f);
+    const BicubicPatch flat = make_bicubic(points);
+    const ToleranceIn tolerance = [](const Box&) { return 1.5f / 4000; };
+    EXPECT_LE(tessellate({&flat, 1}, tolerance, 1).triangles(), 8u);
+
+    const std::vector<BicubicPatch> many(3000, curved_sphere(1).bicubics[0]);
+    const ToleranceIn tiny = [](const Box&) { return 1e-9f; };
+    EXPECT_GT(grid_points(many, tiny, 2), kMostGridPoints);
+    EXPECT_THROW(tessellate(many, tiny, 2), Error);
 }
 
 // Edges of a closed surface whose patches are divided differently are the same polylines, to the

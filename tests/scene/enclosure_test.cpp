@@ -1,6 +1,8 @@
 #include "scene/enclosure.h"
 
 #include "sample_renderer/tiny_scenes.h"
+#include "scene/bicubic_mesh.h"
+#include "scene/curved_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +36,29 @@ TEST(Enclosure, ABoxEnclosesAVolumeAndAnOpenOneDoesNot) {
     EXPECT_FALSE(encloses_volume(mesh, kOther));
     mesh.primitives.pop_back();
     EXPECT_FALSE(encloses_volume(mesh, kGlass));
+}
+
+// A sphere of patches encloses what its surface does, not what its corners do; a lens whose corners
+// lie in a plane encloses something too.
+TEST(Enclosure, PatchesEncloseWhatIsBehindTheirSurface) {
+    Mesh sphere = curved_sphere(0.5f);
+    EXPECT_TRUE(encloses_volume(sphere, MaterialId{0}));
+    Mesh lens;
+    for (const float side : {1.0f, -1.0f}) {
+        std::array<Vec3, 16> points;
+        for (int j = 0; j < 4; ++j)
+            for (int i = 0; i < 4; ++i) {
+                const bool inside = i % 3 != 0 && j % 3 != 0;
+                points[4 * j + i] = {i, j, inside ? 0.4f * side : 0.0f};
+            }
+        BicubicPatch patch = make_bicubic(points);
+        add_bicubic(lens, side > 0 ? patch : flipped(patch), MaterialId{0});
+    }
+    order_primitives(lens);
+    EXPECT_TRUE(encloses_volume(lens, MaterialId{0}));
+    for (BicubicPatch& patch : lens.bicubics) patch = flipped(patch);
+    for (Primitive& p : lens.primitives) std::swap(p.corners[1], p.corners[3]);
+    EXPECT_FALSE(encloses_volume(lens, MaterialId{0}));  // inward
 }
 
 // Fronts that look inward, or not all alike, do not say which side is the glass.
