@@ -3,10 +3,9 @@
 #include "base/error.h"
 #include "base/parallel.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <tuple>
 
 namespace chiaro {
@@ -215,7 +214,7 @@ PatchGrids tessellate(std::span<const BicubicPatch> patches, const ToleranceIn& 
     std::vector<Plan> plans = make_plans(patches, tolerance, threads);
     if (points_of(plans) > kMostGridPoints)
         throw Error("curved surfaces",
-                    fmt::format("one object takes more than {} points", kMostGridPoints),
+                    "one object takes more than " + std::to_string(kMostGridPoints) + " points",
                     "allow a larger --curve-error");
     PatchGrids result;
     std::size_t points = 0;
