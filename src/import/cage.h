@@ -30,7 +30,9 @@ struct SubdivisionRules {
     bool chaikin = false;  // sharpness along a crease is smoothed
 };
 
-/// Sharpness: how many levels of subdivision are sharp; 10 and more, all of them.
+/// Sharpness: how many levels of subdivision are sharp; this many and more, all of them
+/// (OpenSubdiv's Sdc::Crease::SHARPNESS_INFINITE).
+inline constexpr float kInfinitelySharp = 10;
 struct SharpEdge {
     std::uint32_t from, to;
     float sharpness;

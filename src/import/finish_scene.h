@@ -13,9 +13,8 @@ namespace chiaro {
 /// by id: a reader gives textures to no others.
 std::vector<bool> drop_unseen(Scene& scene, const std::string& where);
 
-/// Applies `options`; refuses a world that floats
-/// cannot hold and lights that are too bright, and warns of one too small. Afterwards check_scene()
-/// holds. Also for built-in scenes.
+/// Applies `options`; refuses a world that floats cannot hold and lights that are too bright, and
+/// warns of one too small. Afterwards check_scene() holds. Also for built-in scenes.
 void finish_scene(Scene& scene, const LoadOptions& options, const std::string& where);
 
 }  // namespace chiaro

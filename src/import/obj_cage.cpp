@@ -1,23 +1,11 @@
 #include "import/obj_cage.h"
 
-#include <map>
+#include "import/numbers.h"
+
 #include <utility>
 
 namespace chiaro {
 namespace {
-
-// Numbers, from 0, for those of the file's points that the part uses.
-template <typename Index>
-struct Numbers {
-    std::map<Index, std::uint32_t> of;
-    std::vector<Index> used;
-
-    std::uint32_t operator()(const Index& index) {
-        const auto [known, fresh] = of.try_emplace(index, static_cast<std::uint32_t>(used.size()));
-        if (fresh) used.push_back(index);
-        return known->second;
-    }
-};
 
 // Tags name vertices of the whole file; those of other parts are passed over.
 void add_tags(const ObjTags& tags, const std::map<std::uint32_t, std::uint32_t>& vertices,
@@ -38,7 +26,7 @@ void add_tags(const ObjTags& tags, const std::map<std::uint32_t, std::uint32_t>&
 Cage make_cage(const ObjGeometry& geometry, const ObjPart& part, const ObjTags& tags) {
     Cage cage;
     cage.name = part.name;
-    Numbers<std::uint32_t> vertices;
+    Numbers<std::uint32_t> vertices;  // those of the file that the part uses
     // A `vt` that two vertices have is one for each: OpenSubdiv moves them apart.
     Numbers<std::pair<std::uint32_t, std::uint32_t>> uvs;
     bool has_uvs = true;

@@ -11,9 +11,6 @@
 namespace chiaro {
 namespace {
 
-// Sharper than this is infinitely sharp (Sdc::Crease::SHARPNESS_INFINITE).
-constexpr float kSharpest = 10;
-
 // What a tag brings: `name integers/floats/strings` and then as many of each.
 struct Tag {
     std::string name;
@@ -61,7 +58,7 @@ Tag read_words(TextLines& lines, std::string_view name) {
 float sharpness_of(const Tag& tag, std::size_t index, const TextLines& lines) {
     if (tag.floats.empty()) lines.refuse("tag: the sharpness is missing");
     const float sharpness = tag.floats[std::min(index, tag.floats.size() - 1)];
-    return std::clamp(sharpness, 0.0f, kSharpest);
+    return std::clamp(sharpness, 0.0f, kInfinitelySharp);
 }
 
 void read_crease(const Tag& tag, const TextLines& lines, ObjTags& tags) {

@@ -17,8 +17,6 @@ namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 using Refiner = std::unique_ptr<Far::TopologyRefiner>;
 
-constexpr float kInfinitelySharp = 10;
-
 // A texture coordinate, blended by OpenSubdiv.
 struct UvPoint {
     glm::dvec2 uv = glm::dvec2(0);

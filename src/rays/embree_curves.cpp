@@ -54,9 +54,7 @@ void EmbreeScene::build_eye(const Scene& scene, std::vector<ShownCurves>& curves
         for (ShownCurves& some : curves) show(scene, some);
 
         // All else is as other rays see it.
-        eye_ = rtcNewScene(device_);
-        rtcSetSceneBuildQuality(eye_, RTC_BUILD_QUALITY_MEDIUM);
-        rtcSetSceneFlags(eye_, scene_flags());
+        eye_ = new_scene();
         for (std::size_t i = 0; i < objects_.size(); ++i) {
             const Shown* shown = shown_of(static_cast<std::uint32_t>(i));
             const RTCGeometry geometry = shown != nullptr ? shown->instance : objects_[i].geometry;
@@ -72,9 +70,7 @@ void EmbreeScene::show(const Scene& scene, ShownCurves& curves) {
     const Object& object = scene.objects[index_of(curves.object)];
     const Mesh& mesh = scene.mesh_of(object);
     Shown& shown = shown_.emplace_back(Shown{.object = curves.object});
-    shown.mesh = rtcNewScene(device_);
-    rtcSetSceneBuildQuality(shown.mesh, RTC_BUILD_QUALITY_MEDIUM);
-    rtcSetSceneFlags(shown.mesh, scene_flags());
+    shown.mesh = new_scene();
     const RTCScene as_before = meshes_[index_of(object.mesh)];
     if (mesh.bicubics.size() < mesh.quad_count)
         rtcAttachGeometryByID(shown.mesh, rtcGetGeometry(as_before, kQuads), kQuads);

@@ -113,21 +113,19 @@ void EmbreeScene::build(const Scene& scene) {
         if (shows_something(scene, object) && meshes_[index_of(object.mesh)] == nullptr)
             build_mesh(object.mesh, scene);
 
-    top_ = rtcNewScene(device_);
-    rtcSetSceneBuildQuality(top_, RTC_BUILD_QUALITY_MEDIUM);
-    rtcSetSceneFlags(top_, scene_flags());
+    top_ = new_scene();
     objects_.resize(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         if (!shows_something(scene, scene.objects[i])) continue;
         Instance& instance = objects_[i];
-        instance.mesh = index_of(scene.objects[i].mesh);
-        instance.primitives = scene.mesh_of(scene.objects[i]).primitives.data();
         const Mesh& mesh = scene.mesh_of(scene.objects[i]);
+        instance.mesh = index_of(scene.objects[i].mesh);
+        instance.primitives = mesh.primitives.data();
         instance.first_of = {static_cast<std::uint32_t>(mesh.bicubics.size()), mesh.quad_count, 0};
         const std::vector<bool>& curved = curved_[instance.mesh];
         instance.any_curved = std::find(curved.begin(), curved.end(), true) != curved.end();
         instance.geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance.geometry, meshes_[index_of(scene.objects[i].mesh)]);
+        rtcSetGeometryInstancedScene(instance.geometry, meshes_[instance.mesh]);
         place(scene, i);
         rtcAttachGeometryByID(top_, instance.geometry, static_cast<unsigned>(i));
         rtcReleaseGeometry(instance.geometry);  // the scene keeps it
@@ -138,9 +136,13 @@ void EmbreeScene::build(const Scene& scene) {
 
 // If not robust, rays slip through the diagonals of quads and the edges that they share: one in ten
 // of those aimed there. It costs a tenth of the speed.
-RTCSceneFlags EmbreeScene::scene_flags() const {
-    return any_single_sided_ ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
-                             : RTC_SCENE_FLAG_ROBUST;
+RTCScene EmbreeScene::new_scene() const {
+    const RTCScene made = rtcNewScene(device_);
+    rtcSetSceneBuildQuality(made, RTC_BUILD_QUALITY_MEDIUM);
+    rtcSetSceneFlags(made, any_single_sided_
+                               ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
+                               : RTC_SCENE_FLAG_ROBUST);
+    return made;
 }
 
 EmbreeScene::~EmbreeScene() {
@@ -157,11 +159,9 @@ void EmbreeScene::release() {
 
 void EmbreeScene::build_mesh(MeshId id, const Scene& scene) {
     const Mesh& mesh = scene.meshes[index_of(id)];
-    RTCScene mesh_scene = rtcNewScene(device_);
+    RTCScene mesh_scene = new_scene();
     meshes_[index_of(id)] = mesh_scene;
     curved_[index_of(id)] = curved_primitives(mesh);
-    rtcSetSceneBuildQuality(mesh_scene, RTC_BUILD_QUALITY_MEDIUM);
-    rtcSetSceneFlags(mesh_scene, scene_flags());
 
     // A copy, padded: Embree reads 16 bytes at the last point. Quads and triangles share it.
     const std::size_t bytes = mesh.positions.size() * sizeof(Vec3);

@@ -86,7 +86,7 @@ public:
 
 private:
     void build(const Scene& scene);
-    RTCSceneFlags scene_flags() const;
+    RTCScene new_scene() const;
     void build_mesh(MeshId mesh, const Scene& scene);
     void release();
     void attach_polygons(RTCScene mesh_scene, RTCBuffer positions, const Mesh& mesh,
