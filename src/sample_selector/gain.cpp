@@ -181,26 +181,25 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
 
 std::uint32_t samples_of_new(const ShadingCache& cache, VertexId vertex, int channel,
                              const GainSettings& settings) {
-    return samples_of_new(cache, cache.vertex(vertex).known_parents(), channel, settings);
+    return samples_of_new(cache, cache.parents(vertex).vertices(), channel, settings);
 }
 
 float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, float pixels,
                     const GainSettings& settings) {
-    const CacheVertex& v = cache.vertex(vertex);
-    const auto parents = v.known_parents();
-    const float cost = static_cast<float>(samples_of_new(cache, parents, channel, settings)) *
+    const Parents parents = cache.parents(vertex);
+    const float cost = static_cast<float>(samples_of_new(cache, vertex, channel, settings)) *
                        settings.seconds_a_sample[channel];
-    if (v.hollow) return kBlack * kBlack * pixels / cost;
+    if (cache.vertex(vertex).hollow) return kBlack * kBlack * pixels / cost;
 
     float known = 0;
     for (std::size_t i = 0; i < parents.size(); ++i)
-        if (cache.evaluated(parents[i], channel)) known += v.weight(i);
+        if (cache.evaluated(parents[i], channel)) known += parents.weight(i);
     if (known < kEnoughKnown) return 0;
 
     Survey survey;
     for (std::size_t i = 0; i < parents.size(); ++i)
         if (cache.evaluated(parents[i], channel))
-            survey.add(cache, parents[i], channel, v.weight(i) / known);
+            survey.add(cache, parents[i], channel, parents.weight(i) / known);
     const float slope = to_curve(cache, vertex, channel, settings.scale);
     const float error2 = survey.error2(kSurplusOfMesh) * slope * slope + kUnproven * kUnproven;
     return error2 * pixels / cost;

@@ -46,7 +46,7 @@ MeshFront::Lists<T> MeshFront::make_lists(const ForEach& for_each) const {
 void MeshFront::link(const ShadingCache& cache) {
     children_ = make_lists<std::uint32_t>([&](const auto& add) {
         for (std::size_t place = 0; place < vertices_.size(); ++place)
-            for (const VertexId parent : cache.vertex(vertices_[place]).known_parents())
+            for (const VertexId parent : cache.parents(vertices_[place]))
                 add(place_of(parent), static_cast<std::uint32_t>(place));
     });
     roots_ = make_lists<PatchId>([&](const auto& add) {
@@ -81,14 +81,13 @@ void MeshFront::weigh(const ShadingCache& cache) {
 
     // Then from fine to coarse: parents come before their children.
     for (std::size_t place = vertices_.size(); place-- > 0;) {
-        const CacheVertex& v = cache.vertex(vertices_[place]);
-        const auto parents = v.known_parents();
+        const Parents parents = cache.parents(vertices_[place]);
         for (std::size_t i = 0; i < parents.size(); ++i) {
             const std::size_t parent = place_of(parents[i]);
             in_view_[parent] |= in_view_[place];
             for (int c = 0; c < cache.channels(); ++c)
                 if (!cache.evaluated(vertices_[place], c))
-                    spoken_for_[c][parent] += v.weight(i) * pixels(cache, place, c);
+                    spoken_for_[c][parent] += parents.weight(i) * pixels(cache, place, c);
         }
     }
 }
@@ -113,10 +112,9 @@ float MeshFront::pixels(const ShadingCache& cache, std::size_t place, int channe
 
 // Takes pixels off all that spoke for a vertex.
 void MeshFront::lift(const ShadingCache& cache, VertexId vertex, int channel, float pixels) {
-    const CacheVertex& v = cache.vertex(vertex);
-    const auto parents = v.known_parents();
+    const Parents parents = cache.parents(vertex);
     for (std::size_t i = 0; i < parents.size(); ++i) {
-        const float part = v.weight(i) * pixels;
+        const float part = parents.weight(i) * pixels;
         spoken_for_[channel][place_of(parents[i])] -= part;
         if (!cache.evaluated(parents[i], channel)) lift(cache, parents[i], channel, part);
     }
@@ -151,11 +149,11 @@ void MeshFront::unsettle(const ShadingCache& cache, VertexId forgotten, int chan
 // that.
 void MeshFront::blame(ShadingCache& cache, VertexId vertex, int channel, float surplus,
                       std::vector<VertexId>& suspects) const {
-    const CacheVertex& v = cache.vertex(vertex);
-    for (std::size_t i = 0; i < v.known_parents().size(); ++i) {
-        const VertexId parent = v.parents[i];
+    const Parents parents = cache.parents(vertex);
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        const VertexId parent = parents[i];
         if (!cache.evaluated(parent, channel))
-            blame(cache, parent, channel, v.weight(i) * surplus, suspects);
+            blame(cache, parent, channel, parents.weight(i) * surplus, suspects);
         else if (!cache.vertex(parent).buried && cache.suspect(parent, channel, surplus))
             suspects.push_back(parent);
     }

@@ -17,11 +17,10 @@ void relocate_hidden(ShadingCache& cache, const MeshFront& front) {
         if (front.shown(place)) here = {id, 1};
         if (here.vertex == VertexId::none) continue;
         if (!cache.of_root(id) && !cache.evaluated(id)) cache.relocate(id, here.vertex);
-        const CacheVertex& v = cache.vertex(id);
-        const auto parents = v.known_parents();
+        const Parents parents = cache.parents(id);
         for (std::size_t i = 0; i < parents.size(); ++i) {
             Spoken& above = most[index_of(parents[i])];
-            const float part = here.part * v.weight(i);
+            const float part = here.part * parents.weight(i);
             if (part > above.part) above = {here.vertex, part};
         }
     }

@@ -39,7 +39,7 @@ void SumTree::clear() {
 }
 
 void SumTree::resize(std::size_t count) {
-    if (weights_.capacity() < count) weights_.reserve(count + count / 32 + 64);
+    if (weights_.capacity() < count) weights_.reserve(count + count / 64 + 64);
     weights_.resize(std::max(count, weights_.size()));
     std::size_t below = weights_.size();
     for (std::size_t level = 0; below > 1; ++level) {

@@ -10,7 +10,7 @@
 namespace chiaro {
 
 /// A hash table of vertex ids, 4 bytes an entry: the key of an entry stands in its vertex, whose
-/// first two parents are the ends of the edge. Open addressing, at most 3/4 full.
+/// ends are those of the edge. Open addressing, at most 3/4 full.
 class EdgeTable {
 public:
     VertexId find(VertexId a, VertexId b, std::span<const CacheVertex> vertices) const {
@@ -18,9 +18,8 @@ public:
         for (std::size_t i = start(a, b);; i = (i + 1) % entries_.size()) {
             const VertexId entry = entries_[i];
             if (entry == VertexId::none) return entry;
-            const auto& parents = vertices[index_of(entry)].parents;
-            if ((parents[0] == a && parents[1] == b) || (parents[0] == b && parents[1] == a))
-                return entry;
+            const auto& ends = vertices[index_of(entry)].ends;
+            if ((ends[0] == a && ends[1] == b) || (ends[0] == b && ends[1] == a)) return entry;
         }
     }
 
@@ -44,8 +43,8 @@ private:
         return static_cast<std::size_t>(h * entries_.size() >> 32);
     }
     void place(VertexId midpoint, std::span<const CacheVertex> vertices) {
-        const auto& parents = vertices[index_of(midpoint)].parents;
-        std::size_t i = start(parents[0], parents[1]);
+        const auto& ends = vertices[index_of(midpoint)].ends;
+        std::size_t i = start(ends[0], ends[1]);
         while (entries_[i] != VertexId::none) i = (i + 1) % entries_.size();
         entries_[i] = midpoint;
     }

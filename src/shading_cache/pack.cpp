@@ -1,7 +1,7 @@
 // Deleting patches: a collapse marks, a pack() moves what stays together. Rare, so that no other
 // code has to live with holes or reused ids.
 
-#include "base/error.h"
+#include "shading_cache/arrays.h"
 #include "shading_cache/shading_cache.h"
 
 namespace chiaro {
@@ -15,15 +15,6 @@ std::vector<Id> renumber(const std::vector<char>& kept) {
     for (std::size_t i = 0; i < kept.size(); ++i)
         if (kept[i]) renumbered[i] = static_cast<Id>(next++);
     return renumbered;
-}
-
-template <typename T>
-void keep_only(std::vector<T>& array, const std::vector<char>& kept) {
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < kept.size(); ++i)
-        if (kept[i]) array[next++] = array[i];
-    array.resize(next);
-    array.shrink_to_fit();
 }
 
 }  // namespace
@@ -51,7 +42,7 @@ void ShadingCache::pack() {
                 vertex_kept[index_of(patches_[i].corners[c])] = 1;
     for (std::size_t i = vertices_.size(); i-- > 0;)
         if (vertex_kept[i])
-            for (const VertexId parent : vertices_[i].known_parents())
+            for (const VertexId parent : parents(static_cast<VertexId>(i)))
                 vertex_kept[index_of(parent)] = 1;
 
     const auto new_patch = renumber<PatchId>(patch_kept);
@@ -62,15 +53,14 @@ void ShadingCache::pack() {
         if (!p.is_root()) p.parent = static_cast<std::uint32_t>(new_patch[p.parent]);
         if (!p.is_leaf()) p.first_child = new_patch[index_of(p.first_child)];
     }
-    for (CacheVertex& v : vertices_)
-        for (VertexId& parent : v.parents)
-            if (parent != VertexId::none) parent = new_vertex[index_of(parent)];
+    pack_parents(vertex_kept, new_vertex);
     for (PatchId& root : roots_)
         if (root != PatchId::none) root = new_patch[index_of(root)];
     for (VertexId& id : mesh_vertices_)
         if (id != VertexId::none) id = new_vertex[index_of(id)];
 
-    pack_channels(vertex_kept);
+    estimates_.pack(vertex_kept);
+    for (auto& shown : shown_) keep_only(shown, vertex_kept);
     keep_only(patches_, patch_kept);
     keep_only(vertices_, vertex_kept);
     keep_only(notes_, vertex_kept);
@@ -78,25 +68,29 @@ void ShadingCache::pack() {
     first_changed_ = 0;
     edges_.clear();
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
-        if (!vertices_[i].of_mesh && vertices_[i].known_parents().size() == 2)
-            edges_.insert(static_cast<VertexId>(i), vertices_);
+        if (vertices_[i].halves_edge()) edges_.insert(static_cast<VertexId>(i), vertices_);
     }
 }
 
-void ShadingCache::pack_channels(const std::vector<char>& vertex_kept) {
-    for (int c = 0; c < channels(); ++c) {
-        std::vector<Estimate> packed;
-        for (std::size_t v = 0; v < vertex_kept.size(); ++v) {
-            std::uint32_t& slot = slots_[c][v];
-            if (!vertex_kept[v] || slot == kNoSlot) continue;
-            packed.push_back(estimates_[c][slot]);
-            slot = static_cast<std::uint32_t>(packed.size() - 1);
+// Parents by their new ids, and the sets of those vertices alone that are kept.
+void ShadingCache::pack_parents(const std::vector<char>& vertex_kept,
+                                std::span<const VertexId> new_vertex) {
+    const auto renew = [&](VertexId& id) {
+        if (id != VertexId::none) id = new_vertex[index_of(id)];
+    };
+    std::vector<ParentSet> packed;
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+        CacheVertex& v = vertices_[i];
+        if (v.halves_edge()) {
+            for (VertexId& end : v.ends) renew(end);
+        } else if (vertex_kept[i] && v.ends[0] != VertexId::none) {
+            packed.push_back(parent_sets_[index_of(v.ends[0])]);
+            for (VertexId& parent : packed.back().vertices) renew(parent);
+            v.ends[0] = static_cast<VertexId>(packed.size() - 1);
         }
-        packed.shrink_to_fit();
-        estimates_[c] = std::move(packed);
-        keep_only(slots_[c], vertex_kept);
-        keep_only(shown_[c], vertex_kept);
     }
+    packed.shrink_to_fit();
+    parent_sets_ = std::move(packed);
 }
 
 }  // namespace chiaro

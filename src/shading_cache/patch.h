@@ -55,17 +55,16 @@ struct Patch {
     bool refined(int channel) const { return refined_channels >> channel & 1; }
 };
 
-/// A surface point with 0 to 4 weighted parents, from whose values its own is predicted. Below the
-/// mesh these are the ends of the edge it halves or the corners of the quad it centres; a corner of
-/// the mesh has vertices of a coarser level (mesh_graph.h), or none. Parents come earlier in the
-/// array than their children, so that one pass in order carries values from coarse to fine.
+/// A surface point with 0 to 4 weighted parents, from whose values its own is predicted (Parents).
+/// Below the mesh these are the ends of the edge it halves or the corners of the quad it centres; a
+/// corner of the mesh has vertices of a coarser level (mesh_graph.h), or none. Parents come earlier
+/// in the array than their children, so that one pass in order carries values from coarse to fine.
 struct CacheVertex {
-    static constexpr int kFullWeight = 128;  // weights are multiples of 1/128
     static constexpr int kSideBits = 28;
 
-    std::array<VertexId, 4> parents = {VertexId::none, VertexId::none, VertexId::none,
-                                       VertexId::none};
-    std::array<std::uint8_t, 4> weights = {0, 0, 0, 0};
+    // The ends of the edge that it halves, its parents in equal parts. Otherwise the second is
+    // none, and the first too where there are no parents: see ShadingCache::parents().
+    std::array<VertexId, 2> ends = {VertexId::none, VertexId::none};
     std::uint32_t surface_side : kSideBits = 0;  // of the root on which it is sampled
     std::uint32_t of_mesh : 1 = 0;  // a corner of the mesh, not made by dividing patches
     std::uint32_t exposed : 1 = 0;  // it was seen not to be buried, whatever rays met
@@ -76,14 +75,40 @@ struct CacheVertex {
     void set_surface_side(std::uint32_t side) {
         surface_side = side & ((std::uint32_t{1} << kSideBits) - 1);
     }
-    /// Those of `parents` that there are.
-    std::span<const VertexId> known_parents() const {
-        std::size_t count = 0;
-        while (count < parents.size() && parents[count] != VertexId::none) ++count;
-        return std::span(parents).first(count);
-    }
+    bool halves_edge() const { return ends[1] != VertexId::none; }
+};
+
+/// Parents with weights, where they are more than the two ends of an edge: the first ones of these.
+struct ParentSet {
+    std::array<VertexId, 4> vertices = {VertexId::none, VertexId::none, VertexId::none,
+                                        VertexId::none};
+    std::array<std::uint8_t, 4> weights = {0, 0, 0, 0};  // multiples of 1/128
+};
+
+/// The parents of one vertex, from 0 to 4.
+class Parents {
+public:
+    static constexpr int kFullWeight = 128;  // sum of the weights
+    static constexpr std::array<std::uint8_t, 2> kHalves = {kFullWeight / 2, kFullWeight / 2};
+
+    Parents() = default;
+    Parents(std::span<const VertexId> vertices, const std::uint8_t* weights)
+        : vertices_(vertices), weights_(weights) {}
+
+    std::size_t size() const { return vertices_.size(); }
+    bool empty() const { return vertices_.empty(); }
+    VertexId operator[](std::size_t i) const { return vertices_[i]; }
+    auto begin() const { return vertices_.begin(); }
+    auto end() const { return vertices_.end(); }
+    std::span<const VertexId> vertices() const { return vertices_; }
+    /// Of kFullWeight.
+    std::uint8_t whole_weight(std::size_t i) const { return weights_[i]; }
     /// Share of parent i in the prediction, in [0, 1].
-    float weight(std::size_t i) const { return static_cast<float>(weights[i]) / kFullWeight; }
+    float weight(std::size_t i) const { return static_cast<float>(weights_[i]) / kFullWeight; }
+
+private:
+    std::span<const VertexId> vertices_;
+    const std::uint8_t* weights_ = nullptr;
 };
 
 /// What is known of one channel at one vertex; 20 bytes, as there are many.

@@ -1,12 +1,13 @@
 // Roots and the vertices of meshes, made when first seen: the part of a mesh that costs anything.
 
+#include "shading_cache/arrays.h"
 #include "shading_cache/shading_cache.h"
 
 #include <algorithm>
 
 namespace chiaro {
 
-static_assert(MeshGraph::kFullWeight == CacheVertex::kFullWeight);  // weights are taken as they are
+static_assert(MeshGraph::kFullWeight == Parents::kFullWeight);  // weights are taken as they are
 static_assert(2 * kMostPrimitives <= std::size_t{1} << CacheVertex::kSideBits);
 
 /// One side of a mesh in its place in the scene, with what its ids are counted from.
@@ -73,12 +74,13 @@ VertexId ShadingCache::mesh_vertex(const MeshPlace& place, MeshVertexId vertex,
     made.uv = place.uv_of(sampled_at);
     const auto parents = place.graph.parents_of(vertex);
     const auto weights = place.graph.weights_of(vertex);
+    ParentSet set;
     for (std::size_t i = 0; i < parents.size(); ++i) {
         const MeshCorner corner = corner_at(place.mesh, place.graph.corner_of_vertex[parents[i]]);
-        made.parents[i] = mesh_vertex(place, static_cast<MeshVertexId>(parents[i]), corner);
-        made.weights[i] = weights[i];
+        set.vertices[i] = mesh_vertex(place, static_cast<MeshVertexId>(parents[i]), corner);
+        set.weights[i] = weights[i];
     }
-    id = add_vertex(made);
+    id = add_vertex(made, set);
     notes_[index_of(id)].level = place.graph.level[index_of(vertex)] & 0x3f;
     return id;
 }
@@ -91,11 +93,9 @@ void ShadingCache::relocate(VertexId hidden, VertexId in_view) {
 }
 
 void ShadingCache::forget(VertexId id) {
-    for (int c = 0; c < channels(); ++c) {
-        std::uint32_t& slot = slots_[c][index_of(id)];
-        if (slot != kNoSlot) forgotten_.emplace_back(id, c);
-        slot = kNoSlot;
-    }
+    for (int c = 0; c < channels(); ++c)
+        if (evaluated(id, c)) forgotten_.emplace_back(id, c);
+    estimates_.forget(id, kAllChannels);
 }
 
 // What was found of the place where it was sampled before no longer counts.

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/rgb9e5.h"
+#include "shading_cache/arrays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +35,6 @@ ShadingCache::ShadingCache(const Scene& scene, const MeshGraphs& graphs, Channel
     }
     roots_.assign(2 * primitives, PatchId::none);
     mesh_vertices_.assign(2 * vertices, VertexId::none);
-    slots_.resize(total);
-    estimates_.resize(total);
     shown_.resize(total);
 }
 
@@ -99,7 +98,11 @@ Split ShadingCache::choose_split(PatchId leaf) const {
 VertexId ShadingCache::node_vertex(PatchId id, Node node) {
     const Patch& p = patch(id);
     if (node < kFirstMidpoint) return p.corners[node];
-    if (node == kCentre) return add_vertex(id, node_place(true, kCentre), p.corners);
+    if (node == kCentre) {
+        constexpr std::uint8_t kQuarter = Parents::kFullWeight / 4;
+        return add_vertex(new_vertex(id, node_place(true, kCentre)),
+                          {p.corners, {kQuarter, kQuarter, kQuarter, kQuarter}});
+    }
     return edge_midpoint(id, node);
 }
 
@@ -109,34 +112,43 @@ VertexId ShadingCache::edge_midpoint(PatchId id, Node node) {
     const std::array<VertexId, 2> ends = {p.corners[edge],
                                           p.corners[(edge + 1) % p.corner_count()]};
     if (const auto known = midpoint(ends[0], ends[1])) return *known;
-    const VertexId made = add_vertex(id, node_place(p.is_quad(), node), ends);
+    CacheVertex vertex = new_vertex(id, node_place(p.is_quad(), node));
+    vertex.ends = ends;
+    const VertexId made = add_vertex(vertex);
     edges_.insert(made, vertices_);
     return made;
 }
 
-// A vertex at a local point of a patch, whose value its parents predict in equal parts until it is
-// evaluated.
-VertexId ShadingCache::add_vertex(PatchId id, Vec2 local, std::span<const VertexId> parents) {
+// A vertex at a local point of a patch, without parents.
+CacheVertex ShadingCache::new_vertex(PatchId id, Vec2 local) const {
     CacheVertex vertex;
     vertex.set_surface_side(surface_side(id));
     vertex.uv = surface_uv(id, pulled_in(patch(id).is_quad(), local));
-    for (std::size_t i = 0; i < parents.size(); ++i) {
-        vertex.parents[i] = parents[i];
-        vertex.weights[i] = static_cast<std::uint8_t>(CacheVertex::kFullWeight / parents.size());
+    return vertex;
+}
+
+Parents ShadingCache::parents_of(const ParentSet& set) {
+    std::size_t count = 0;
+    while (count < set.vertices.size() && set.vertices[count] != VertexId::none) ++count;
+    return {std::span(set.vertices).first(count), set.weights.data()};
+}
+
+VertexId ShadingCache::add_vertex(CacheVertex vertex, const ParentSet& parents) {
+    if (parents.vertices[0] != VertexId::none) {
+        vertex.ends[0] = static_cast<VertexId>(parent_sets_.size());
+        append(parent_sets_, parents, vertex.of_mesh ? kAtOnce : kOften);
     }
     return add_vertex(vertex);
 }
 
 VertexId ShadingCache::add_vertex(const CacheVertex& vertex) {
-    const std::size_t part = vertex.of_mesh ? kAtOnce : 32;
+    const std::size_t part = vertex.of_mesh ? kAtOnce : kOften;
     append(vertices_, vertex, part);
     append(changed_, std::uint8_t{0}, part);
     append(notes_, Notes{}, part);
     const auto made = static_cast<VertexId>(vertices_.size() - 1);
-    for (int c = 0; c < channels(); ++c) {
-        append(slots_[c], kNoSlot, part);
-        append(shown_[c], std::uint32_t{0}, part);
-    }
+    estimates_.add_vertex(part);
+    for (auto& shown : shown_) append(shown, std::uint32_t{0}, part);
     resolve_vertex(made);
     return made;
 }
@@ -179,26 +191,12 @@ std::uint8_t ShadingCache::reflectance(VertexId id) const {
     return reflectances_[index_of(material_of(*scene_, surface_point(id)))];
 }
 
-const Estimate* ShadingCache::estimate(VertexId vertex, int channel) const {
-    const std::uint32_t slot = slots_[channel][index_of(vertex)];
-    return slot == kNoSlot ? nullptr : &estimates_[channel][slot];
-}
-
-bool ShadingCache::evaluated(VertexId vertex) const {
-    for (int c = 0; c < channels(); ++c)
-        if (evaluated(vertex, c)) return true;
-    return false;
-}
-
 std::size_t ShadingCache::bytes() const {
-    const auto held = [](const auto& array) {
-        return array.capacity() * sizeof(typename std::decay_t<decltype(array)>::value_type);
-    };
-    std::size_t total = held(roots_) + held(first_primitive_) + held(patches_) + held(vertices_) +
-                        held(first_mesh_vertex_) + held(mesh_vertices_) + held(notes_) +
-                        held(changed_) + edges_.bytes();
-    for (int c = 0; c < channels(); ++c)
-        total += held(slots_[c]) + held(estimates_[c]) + held(shown_[c]);
+    std::size_t total = bytes_of(first_primitive_) + bytes_of(first_mesh_vertex_) +
+                        bytes_of(reflectances_) + bytes_of(roots_) + bytes_of(mesh_vertices_) +
+                        bytes_of(patches_) + bytes_of(vertices_) + bytes_of(parent_sets_) +
+                        bytes_of(notes_) + edges_.bytes() + estimates_.bytes() + bytes_of(changed_);
+    for (const auto& shown : shown_) total += bytes_of(shown);
     return total;
 }
 

@@ -5,6 +5,7 @@
 
 #include "scene/surface.h"
 #include "shading_cache/edge_table.h"
+#include "shading_cache/estimate_table.h"
 #include "shading_cache/mesh_graph.h"
 #include "shading_cache/patch.h"
 
@@ -45,7 +46,7 @@ public:
     /// must outlive the cache. Checks: 1 to 8 channels.
     ShadingCache(const Scene& scene, const MeshGraphs& graphs, Channels channels, SplitRule rule);
 
-    int channels() const { return static_cast<int>(estimates_.size()); }
+    int channels() const { return static_cast<int>(shown_.size()); }
     /// What a channel holds.
     Shading shading(int channel) const {
         return channel < irradiance_channels_ ? Shading::irradiance : Shading::glossy;
@@ -73,6 +74,14 @@ public:
     /// Gives up what was collapsed and moves the rest together, in order. All ids change.
     void pack();
 
+    /// What a vertex's values are predicted from. Valid until vertices are added.
+    Parents parents(VertexId vertex) const {
+        const CacheVertex& v = this->vertex(vertex);
+        if (v.halves_edge()) return {v.ends, Parents::kHalves.data()};
+        if (v.ends[0] == VertexId::none) return {};
+        return parents_of(parent_sets_[index_of(v.ends[0])]);
+    }
+
     /// The midpoint that somebody has put on the edge between two vertices.
     std::optional<VertexId> midpoint(VertexId a, VertexId b) const;
 
@@ -99,10 +108,14 @@ public:
     std::vector<std::pair<VertexId, int>> take_forgotten() { return std::exchange(forgotten_, {}); }
 
     /// Estimate of a channel at a vertex, if it was evaluated there.
-    const Estimate* estimate(VertexId vertex, int channel) const;
-    bool evaluated(VertexId vertex, int channel) const { return estimate(vertex, channel); }
+    const Estimate* estimate(VertexId vertex, int channel) const {
+        return estimates_.find(vertex, channel);
+    }
+    bool evaluated(VertexId vertex, int channel) const {
+        return estimates_.known(vertex) >> channel & 1;
+    }
     /// In any channel.
-    bool evaluated(VertexId vertex) const;
+    bool evaluated(VertexId vertex) const { return estimates_.known(vertex) != 0; }
 
     /// By how much the vertex's estimate missed its prediction (luminance); where there was none, a
     /// part of all light there. Checks: evaluated.
@@ -173,20 +186,23 @@ private:
     void forget(VertexId vertex);
     VertexId edge_midpoint(PatchId patch, Node node);
     VertexId node_vertex(PatchId patch, Node node);
-    VertexId add_vertex(PatchId patch, Vec2 local, std::span<const VertexId> parents);
+    static Parents parents_of(const ParentSet& set);
+    CacheVertex new_vertex(PatchId patch, Vec2 local) const;
     VertexId add_vertex(const CacheVertex& vertex);
+    VertexId add_vertex(CacheVertex vertex, const ParentSet& parents);
     Split choose_split(PatchId leaf) const;
-    std::optional<Rgb> predicted(const CacheVertex& vertex, int channel) const;
+    std::optional<Rgb> predicted(VertexId vertex, int channel) const;
     void resolve_hollow(VertexId vertex);
     float first_surplus(VertexId vertex, int channel, Rgb mean, float variance) const;
     void note_change(VertexId vertex, int channel);
     void resolve_vertex(VertexId vertex, int channel);
     void resolve_vertex(VertexId vertex);
     void show(VertexId vertex, int channel, Rgb value);
+    void pack_parents(const std::vector<char>& vertex_kept, std::span<const VertexId> new_vertex);
     SurfacePoint place(std::uint32_t surface_side, Vec2 uv) const;
-    void pack_channels(const std::vector<char>& vertex_kept);
 
-    static constexpr std::size_t kAtOnce = 8;  // roots come by the view: append()
+    static constexpr std::size_t kAtOnce = 8;  // roots come by the view: append(),
+    static constexpr std::size_t kOften = 64;  // what divides them bit by bit
 
     const Scene* scene_;
     const MeshGraphs* graphs_;
@@ -199,12 +215,11 @@ private:
     std::vector<VertexId> mesh_vertices_;  // 2 x vertex + (back ? 1 : 0); none until first needed
     std::vector<Patch> patches_;
     std::vector<CacheVertex> vertices_;
-    std::vector<Notes> notes_;  // by vertex
+    std::vector<ParentSet> parent_sets_;  // of the vertices that have more than an edge's ends
+    std::vector<Notes> notes_;            // by vertex
     EdgeTable edges_;
 
-    static constexpr std::uint32_t kNoSlot = 0xffff'ffff;
-    std::vector<std::vector<std::uint32_t>> slots_;  // a channel: vertex to estimate, or kNoSlot
-    std::vector<std::vector<Estimate>> estimates_;   // a channel: only what was evaluated
+    EstimateTable estimates_;
     std::vector<std::vector<std::uint32_t>> shown_;  // a channel: RGB9E5 by vertex, in shown_unit_
     float shown_unit_ = 0x1p-60f;  // a power of two; raised when something brighter comes
 
@@ -215,13 +230,5 @@ private:
     std::vector<std::uint8_t> changed_;     // by vertex: bit c, in channel c
     std::size_t first_changed_ = kNothing;  // no vertex before it has changed
 };
-
-/// Appends with capacity growing by a part of it: a 32nd, as memory is part of what we promise, or
-/// more where many come at once.
-template <typename T>
-void append(std::vector<T>& array, const T& value, std::size_t part = 32) {
-    if (array.size() == array.capacity()) array.reserve(array.size() + array.size() / part + 64);
-    array.push_back(value);
-}
 
 }  // namespace chiaro

@@ -13,17 +13,15 @@ namespace chiaro {
 void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std::uint32_t samples,
                          Cycle now) {
     check(is_finite(mean) && std::isfinite(variance) && samples > 0, "store: value is not usable");
-    std::uint32_t& slot = slots_[channel][index_of(id)];
-    if (slot == kNoSlot) {
-        slot = static_cast<std::uint32_t>(estimates_[channel].size());
-        append(estimates_[channel],
-               Estimate{mean, variance, first_surplus(id, channel, mean, variance),
+    if (Estimate* known = estimates_.find(id, channel); known == nullptr) {
+        estimates_.add(id, channel,
+                       {mean, variance, first_surplus(id, channel, mean, variance),
                         std::min(samples, Estimate::kMostSamples) & Estimate::kMostSamples,
                         now & Estimate::kCycleMask});
     } else {
         // Batches are merged as if they were independent; parts of one Halton sequence do better
         // than that, so that the variance is not understated.
-        Estimate& e = estimates_[channel][slot];
+        Estimate& e = *known;
         const float old_part =
             static_cast<float>(e.samples) / static_cast<float>(e.samples + samples);
         const float new_part = 1 - old_part;
@@ -42,16 +40,16 @@ void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std
 // stays suspected: the quarter that a smooth function would leave on a mesh, whose vertices differ
 // in more than place, less below it.
 float ShadingCache::first_surplus(VertexId id, int channel, Rgb mean, float variance) const {
-    const std::optional<Rgb> prediction = predicted(vertex(id), channel);
+    const std::optional<Rgb> prediction = predicted(id, channel);
     if (!prediction) return Estimate::kUnknown;
     const float miss = luminance(mean) - luminance(*prediction);
     float inherited = 0;
     float noise = variance;
-    const auto parents = vertex(id).known_parents();
+    const Parents parents = this->parents(id);
     for (std::size_t i = 0; i < parents.size(); ++i) {
         const Estimate* e = estimate(parents[i], channel);
         if (!e) continue;
-        const float weight = vertex(id).weight(i);
+        const float weight = parents.weight(i);
         noise += weight * weight * e->variance;
         inherited = std::max(inherited, surplus(parents[i], channel));
     }
@@ -72,7 +70,7 @@ float ShadingCache::surplus_of_unknown(VertexId id, int channel) const {
 }
 
 bool ShadingCache::suspect(VertexId id, int channel, float luminance) {
-    Estimate& e = estimates_[channel][slots_[channel][index_of(id)]];
+    Estimate& e = *estimates_.find(id, channel);
     if (luminance <= surplus(id, channel)) return false;
     e.surplus = luminance;
     note_change(id, channel);
@@ -125,28 +123,28 @@ Shown ShadingCache::shown_total(VertexId id, Shading shading) const {
 }
 
 void ShadingCache::forget_glossy() {
-    for (int c = irradiance_channels_; c < channels(); ++c) {
-        std::fill(slots_[c].begin(), slots_[c].end(), kNoSlot);
+    const auto glossy = static_cast<std::uint8_t>(kAllChannels << irradiance_channels_);
+    for (Patch& patch : patches_) patch.refined_channels &= static_cast<std::uint8_t>(~glossy);
+    for (int c = irradiance_channels_; c < channels(); ++c)
         std::fill(shown_[c].begin(), shown_[c].end(), 0u);
-        estimates_[c].clear();
-        for (Patch& patch : patches_)
-            patch.refined_channels &= static_cast<std::uint8_t>(~(1u << c));
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+        estimates_.forget(static_cast<VertexId>(i), glossy);
+        resolve_hollow(static_cast<VertexId>(i));
     }
-    for (std::size_t i = 0; i < vertices_.size(); ++i) resolve_hollow(static_cast<VertexId>(i));
     first_changed_ = 0;
     std::fill(changed_.begin(), changed_.end(), kAllChannels);
 }
 
 // The parents' weighted mean, hollow ones left out; nothing if none is left.
-std::optional<Rgb> ShadingCache::predicted(const CacheVertex& v, int channel) const {
+std::optional<Rgb> ShadingCache::predicted(VertexId id, int channel) const {
     Rgb sum(0);
     int weight = 0;
-    const auto parents = v.known_parents();
+    const Parents parents = this->parents(id);
     for (std::size_t i = 0; i < parents.size(); ++i) {
         if (vertex(parents[i]).hollow) continue;
-        sum +=
-            static_cast<float>(v.weights[i]) * unpack_rgb9e5(shown_[channel][index_of(parents[i])]);
-        weight += v.weights[i];
+        const int w = parents.whole_weight(i);
+        sum += static_cast<float>(w) * unpack_rgb9e5(shown_[channel][index_of(parents[i])]);
+        weight += w;
     }
     if (weight == 0) return std::nullopt;
     return sum * (shown_unit_ / static_cast<float>(weight));
@@ -154,9 +152,8 @@ std::optional<Rgb> ShadingCache::predicted(const CacheVertex& v, int channel) co
 
 // Takes the channel's value from where it now comes.
 void ShadingCache::resolve_vertex(VertexId id, int channel) {
-    const CacheVertex& v = vertex(id);
-    const Estimate* e = v.buried ? nullptr : estimate(id, channel);
-    const Rgb value = e ? e->mean : predicted(v, channel).value_or(Rgb(0));
+    const Estimate* e = vertex(id).buried ? nullptr : estimate(id, channel);
+    const Rgb value = e ? e->mean : predicted(id, channel).value_or(Rgb(0));
     show(id, channel, value);
 }
 
@@ -187,7 +184,7 @@ void ShadingCache::note_change(VertexId id, int channel) {
 void ShadingCache::resolve_hollow(VertexId id) {
     CacheVertex& v = vertices_[index_of(id)];
     bool knows = !v.buried && evaluated(id);
-    for (const VertexId parent : v.known_parents()) knows |= !vertex(parent).hollow;
+    for (const VertexId parent : parents(id)) knows |= !vertex(parent).hollow;
     if (v.hollow == (knows ? 0 : 1)) return;
     v.hollow = knows ? 0 : 1;
     // What it is left out of, or comes into, is all that its children show.
@@ -202,11 +199,10 @@ void ShadingCache::resolve_vertex(VertexId id) {
 void ShadingCache::resolve() {
     // Parents come earlier in the array than their children, so one pass is enough.
     for (std::size_t i = first_changed_; i < vertices_.size(); ++i) {
-        std::uint8_t news = 0;
-        for (const VertexId parent : vertices_[i].known_parents())
-            news |= changed_[index_of(parent)];
-        if (news == 0) continue;
         const auto id = static_cast<VertexId>(i);
+        std::uint8_t news = 0;
+        for (const VertexId parent : parents(id)) news |= changed_[index_of(parent)];
+        if (news == 0) continue;
         resolve_hollow(id);
         for (int c = 0; c < channels(); ++c)
             if (news >> c & 1 && (vertices_[i].buried || !evaluated(id, c))) resolve_vertex(id, c);

@@ -135,7 +135,7 @@ void UpdateCycle::light_surfaces(std::span<const Fragment> fragments, ShadeWork&
     const auto light = [&](const auto& again, VertexId id, int channel) -> void {
         if (cache_.evaluated(id, channel)) return;
         if (!met.insert(index_of(id) * 8 + static_cast<std::uint64_t>(channel)).second) return;
-        const auto parents = cache_.vertex(id).known_parents();
+        const Parents parents = cache_.parents(id);
         bool known = true;
         for (const VertexId parent : parents) known &= cache_.evaluated(parent, channel);
         // Meshes that it finds are known a level better after every pass.

@@ -92,7 +92,7 @@ std::vector<VertexId> missing_in_view(const ShadingCache& cache, const MeshFront
     for (std::size_t place = 0; place < mesh.vertices().size(); ++place) {
         if (!mesh.in_view(place, cache.shading(channel))) continue;
         const VertexId id = mesh.vertices()[place];
-        if (mesh.level(place) >= start_level || cache.vertex(id).known_parents().empty())
+        if (mesh.level(place) >= start_level || cache.parents(id).empty())
             want(id);
         else
             passed[index_of(id)] = 1;

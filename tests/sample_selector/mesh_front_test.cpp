@@ -188,8 +188,8 @@ Siblings siblings(const ShadingCache& cache) {
     for (const VertexId one : all)
         for (const VertexId other : all) {
             if (one >= other || cache.evaluated(one, 0) || cache.evaluated(other, 0)) continue;
-            const auto theirs = cache.vertex(other).known_parents();
-            for (const VertexId parent : cache.vertex(one).known_parents())
+            const auto theirs = cache.parents(other);
+            for (const VertexId parent : cache.parents(one))
                 if (cache.evaluated(parent, 0) &&
                     std::find(theirs.begin(), theirs.end(), parent) != theirs.end())
                     return {one, other, parent};
@@ -264,8 +264,7 @@ TEST(MeshFront, NoiseAmongUnknownVerticesIsSampledAgain) {
 TEST(MeshFront, VerticesWaitForHalfOfTheirParents) {
     Front f;
     for (const VertexId id : all_vertices(f.cache)) {
-        const CacheVertex& v = f.cache.vertex(id);
-        const auto parents = v.known_parents();
+        const Parents parents = f.cache.parents(id);
         if (parents.size() < 3) continue;
         ShadingCache cache = f.cache;
         float known = 0;
@@ -273,7 +272,7 @@ TEST(MeshFront, VerticesWaitForHalfOfTheirParents) {
         for (std::size_t i = 0; i < parents.size(); ++i) {
             cache.store(parents[i], 0, Rgb(1), 0, 64, 1);
             cache.resolve();
-            known += v.weight(i);
+            known += parents.weight(i);
             EXPECT_EQ(gain_of_first(cache, id, 0, 10, settings()) > 0, known >= 0.5f) << i;
         }
         if (index_of(id) > 400) break;

@@ -84,7 +84,7 @@ TEST(RelocateHidden, ANearPlaceIsTaken) {
     for (const VertexId id : half.hidden()) {
         std::vector<float> distances;
         for (const VertexId child : all_vertices(half.cache)) {
-            const auto parents = half.cache.vertex(child).known_parents();
+            const auto parents = half.cache.parents(child);
             if (half.cache.of_root(child) &&
                 std::find(parents.begin(), parents.end(), id) != parents.end())
                 distances.push_back(glm::length(before[index_of(child)] - before[index_of(id)]));

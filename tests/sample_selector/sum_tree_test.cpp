@@ -132,11 +132,11 @@ TEST(SumTree, NeverShrinks) {
 }
 
 // 2 bytes a weight and 4 bytes a sum of 16, and of 16 sums: 2 + 4 / 15 a weight, with capacity
-// grown by a 32nd.
+// grown by a 64th.
 TEST(SumTree, IsSmall) {
     SumTree tree;
     tree.resize(1'000'000);
-    EXPECT_LE(tree.bytes(), static_cast<std::size_t>((2 + 4.0 / 15) * 1e6 * 33 / 32 + 4096));
+    EXPECT_LE(tree.bytes(), static_cast<std::size_t>((2 + 4.0 / 15) * 1e6 * 65 / 64 + 4096));
 }
 
 }  // namespace

@@ -169,7 +169,7 @@ inline void expect_consistent(const ShadingCache& cache) {
     std::set<std::pair<VertexId, VertexId>> edges;
     for (std::uint32_t i = 0; i < cache.vertices().size(); ++i) {
         const CacheVertex& vertex = cache.vertices()[i];
-        const auto parents = vertex.known_parents();
+        const Parents parents = cache.parents(static_cast<VertexId>(i));
         for (const VertexId parent : parents) EXPECT_LT(index_of(parent), i);
         if (vertex.of_mesh || parents.size() != 2) continue;
         EXPECT_TRUE(edges.insert(std::minmax(parents[0], parents[1])).second);

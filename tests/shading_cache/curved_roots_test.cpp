@@ -70,7 +70,7 @@ TEST(CurvedRoots, VerticesLieOnTheSurfaceAtAnyDepth) {
         const SurfaceGeometry g = surface_geometry(b.scene, b.cache.surface_point(id));
         EXPECT_NEAR(glm::length(g.position), 1, 1e-6f);
         EXPECT_GT(glm::dot(g.geometric_normal, g.position), 0.9999f);
-        const auto parents = b.cache.vertex(id).known_parents();
+        const auto parents = b.cache.parents(id);
         if (parents.size() != 2) continue;
         EXPECT_TRUE(edges.insert(std::minmax({parents[0], parents[1]})).second);
     }

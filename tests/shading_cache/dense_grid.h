@@ -33,7 +33,7 @@ inline Vec3 position(const ShadingCache& cache, VertexId id) {
 inline std::vector<VertexId> coarsest(const ShadingCache& cache) {
     std::vector<VertexId> found;
     for (std::uint32_t i = 0; i < cache.vertices().size(); ++i)
-        if (cache.vertices()[i].of_mesh && cache.vertices()[i].known_parents().empty())
+        if (cache.vertices()[i].of_mesh && cache.parents(static_cast<VertexId>(i)).empty())
             found.push_back(static_cast<VertexId>(i));
     return found;
 }

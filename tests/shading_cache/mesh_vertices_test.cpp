@@ -28,16 +28,16 @@ void collect(const MeshGraph& graph, std::uint32_t vertex, std::set<std::uint32_
 // The parents of all vertices of the cache are those of the mesh, with their weights.
 void expect_the_meshs_parents(const DenseGrid& dense) {
     for (const VertexId id : all_vertices(dense.cache)) {
-        const CacheVertex& v = dense.cache.vertex(id);
-        EXPECT_TRUE(v.of_mesh);
+        EXPECT_TRUE(dense.cache.vertex(id).of_mesh);
+        const Parents known = dense.cache.parents(id);
         const MeshVertexId vertex{in_mesh(dense, id)};
         const auto parents = dense.graph().parents_of(vertex);
         const auto weights = dense.graph().weights_of(vertex);
-        ASSERT_EQ(v.known_parents().size(), parents.size());
+        ASSERT_EQ(known.size(), parents.size());
         for (std::size_t i = 0; i < parents.size(); ++i) {
-            EXPECT_EQ(in_mesh(dense, v.parents[i]), parents[i]);
-            EXPECT_EQ(v.weights[i], weights[i]);
-            EXPECT_EQ(dense.cache.on_front(v.parents[i]), dense.cache.on_front(id));
+            EXPECT_EQ(in_mesh(dense, known[i]), parents[i]);
+            EXPECT_EQ(known.whole_weight(i), weights[i]);
+            EXPECT_EQ(dense.cache.on_front(known[i]), dense.cache.on_front(id));
         }
     }
 }
@@ -220,7 +220,7 @@ TEST(MeshVertices, ResolvingOneTellsWhetherItShowsSomethingElse) {
     for (const VertexId id : coarsest(cache)) cache.store(id, 0, Rgb(4), 0, 1, 1);
     std::size_t predicted = 0;
     for (const VertexId id : all_vertices(cache)) {
-        const bool is_predicted = !cache.vertex(id).known_parents().empty();
+        const bool is_predicted = !cache.parents(id).empty();
         EXPECT_EQ(cache.resolve(id, 0), is_predicted);
         EXPECT_FALSE(cache.resolve(id, 0));  // by now it is known
         EXPECT_FALSE(cache.resolve(id, 1));  // nothing was stored there
@@ -231,12 +231,12 @@ TEST(MeshVertices, ResolvingOneTellsWhetherItShowsSomethingElse) {
     // To be hollow is news too: all but the first of a vertex's parents are buried, then that.
     const auto all = all_vertices(cache);
     const VertexId child = *std::find_if(all.begin(), all.end(), [&](VertexId id) {
-        const auto parents = cache.vertex(id).known_parents();
+        const auto parents = cache.parents(id);
         return parents.size() > 1 && std::all_of(parents.begin(), parents.end(), [&](VertexId p) {
-                   return cache.vertex(p).known_parents().empty();
+                   return cache.parents(p).empty();
                });
     });
-    const auto parents = cache.vertex(child).known_parents();
+    const auto parents = cache.parents(child);
     for (std::size_t i = 1; i < parents.size(); ++i) cache.mark_buried(parents[i]);
     EXPECT_FALSE(cache.resolve(child, 0));  // the first still says 4
     cache.mark_buried(parents[0]);
@@ -260,9 +260,8 @@ TEST(MeshVertices, SuspicionOnlyGrowsAndIsInheritedByAQuarter) {
     }
     cache.resolve();
     const auto all = all_vertices(cache);
-    const VertexId child = *std::find_if(all.begin(), all.end(), [&](VertexId id) {
-        return !cache.vertex(id).known_parents().empty();
-    });
+    const VertexId child = *std::find_if(all.begin(), all.end(),
+                                         [&](VertexId id) { return !cache.parents(id).empty(); });
     cache.store(child, 0, Rgb(8), 0, 1, 1);
     EXPECT_NEAR(cache.surplus(child, 0), 16 / 4, 1e-5f);
 }
@@ -280,7 +279,7 @@ TEST(MeshVertices, PackingMakesNoMidpointsOfThem) {
     const auto expect_no_midpoints = [&] {
         of_two = 0;
         for (const VertexId id : all_vertices(cache)) {
-            const auto parents = cache.vertex(id).known_parents();
+            const auto parents = cache.parents(id);
             if (!cache.vertex(id).of_mesh || parents.size() != 2) continue;
             EXPECT_FALSE(cache.midpoint(parents[0], parents[1]).has_value());
             ++of_two;
