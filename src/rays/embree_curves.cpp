@@ -83,6 +83,7 @@ void EmbreeScene::show(const Scene& scene, ShownCurves& curves) {
     shown.instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(shown.instance, shown.mesh);
     set_matrix(shown.instance, object.to_world);
+    if (!object.shown) rtcDisableGeometry(shown.instance);
 }
 
 void EmbreeScene::stop_showing() {

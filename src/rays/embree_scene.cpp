@@ -14,13 +14,6 @@
 namespace chiaro {
 namespace {
 
-bool any_see_through(const Mesh& mesh, const Scene& scene) {
-    return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& p) {
-        const Material& material = scene.material(p.material);
-        return material.see_through() || may_pass_straight(material);
-    });
-}
-
 bool shows_something(const Scene& scene, const Object& object) {
     return object.mesh != MeshId::none && !scene.mesh_of(object).primitives.empty();
 }
@@ -81,6 +74,18 @@ const char* name_of(RTCError error) {
 
 }  // namespace
 
+bool any_see_through(const Mesh& mesh, const Scene& scene) {
+    return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& p) {
+        const Material& material = scene.material(p.material);
+        return material.see_through() || may_pass_straight(material);
+    });
+}
+
+bool has_single_sided(const Scene& scene) {
+    return std::ranges::any_of(scene.materials,
+                               [](const Material& material) { return !material.double_sided; });
+}
+
 void EmbreeScene::set_matrix(RTCGeometry instance, const Mat4& m) {
     rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m[0][0]);
     rtcCommitGeometry(instance);
@@ -101,37 +106,46 @@ EmbreeScene::EmbreeScene(const Scene& scene, int threads, float curve_tolerance)
 }
 
 void EmbreeScene::build(const Scene& scene) {
-    any_single_sided_ = std::ranges::any_of(
-        scene.materials, [](const Material& material) { return !material.double_sided; });
+    any_single_sided_ = has_single_sided(scene);
+    top_ = new_scene();
+    add_instances(scene);
+    rtcCommitScene(top_);
+    check_device("building the scene");
+}
 
-    // A scene for each mesh that is shown; objects are instances of them.
+// A scene for each mesh that is shown; objects are instances of them.
+void EmbreeScene::add_instances(const Scene& scene) {
     meshes_.resize(scene.meshes.size(), nullptr);
     curved_.resize(scene.meshes.size());
     grids_.resize(scene.meshes.size());
     curve_tolerances_.resize(scene.meshes.size(), 0.0f);
-    for (const Object& object : scene.objects)
-        if (shows_something(scene, object) && meshes_[index_of(object.mesh)] == nullptr)
-            build_mesh(object.mesh, scene);
+    const std::size_t first = objects_.size();
+    for (std::size_t i = first; i < scene.objects.size(); ++i)
+        if (shows_something(scene, scene.objects[i]) &&
+            meshes_[index_of(scene.objects[i].mesh)] == nullptr)
+            build_mesh(scene.objects[i].mesh, scene);
 
-    top_ = new_scene();
     objects_.resize(scene.objects.size());
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        if (!shows_something(scene, scene.objects[i])) continue;
-        Instance& instance = objects_[i];
-        const Mesh& mesh = scene.mesh_of(scene.objects[i]);
-        instance.mesh = index_of(scene.objects[i].mesh);
-        instance.primitives = mesh.primitives.data();
-        instance.first_of = {static_cast<std::uint32_t>(mesh.bicubics.size()), mesh.quad_count, 0};
-        const std::vector<bool>& curved = curved_[instance.mesh];
-        instance.any_curved = std::find(curved.begin(), curved.end(), true) != curved.end();
-        instance.geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance.geometry, meshes_[instance.mesh]);
-        place(scene, i);
-        rtcAttachGeometryByID(top_, instance.geometry, static_cast<unsigned>(i));
-        rtcReleaseGeometry(instance.geometry);  // the scene keeps it
-    }
-    rtcCommitScene(top_);
-    check_device("building the scene");
+    for (std::size_t i = first; i < scene.objects.size(); ++i)
+        if (shows_something(scene, scene.objects[i])) add_instance(scene, i);
+}
+
+void EmbreeScene::add_instance(const Scene& scene, std::size_t object) {
+    Instance& instance = objects_[object];
+    const Mesh& mesh = scene.mesh_of(scene.objects[object]);
+    instance.mesh = index_of(scene.objects[object].mesh);
+    instance.primitives = mesh.primitives.data();
+    instance.first_of = {static_cast<std::uint32_t>(mesh.bicubics.size()), mesh.quad_count, 0};
+    const std::vector<bool>& curved = curved_[instance.mesh];
+    instance.any_curved = std::find(curved.begin(), curved.end(), true) != curved.end();
+    instance.geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance.geometry, meshes_[instance.mesh]);
+    place(scene, object);
+    if (!scene.objects[object].shown) rtcDisableGeometry(instance.geometry);
+    for (RTCScene of : {top_, eye_})
+        if (of != nullptr)
+            rtcAttachGeometryByID(of, instance.geometry, static_cast<unsigned>(object));
+    rtcReleaseGeometry(instance.geometry);  // the scene keeps it
 }
 
 // If not robust, rays slip through the diagonals of quads and the edges that they share: one in ten
@@ -139,10 +153,13 @@ void EmbreeScene::build(const Scene& scene) {
 RTCScene EmbreeScene::new_scene() const {
     const RTCScene made = rtcNewScene(device_);
     rtcSetSceneBuildQuality(made, RTC_BUILD_QUALITY_MEDIUM);
-    rtcSetSceneFlags(made, any_single_sided_
-                               ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
-                               : RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(made, scene_flags());
     return made;
+}
+
+RTCSceneFlags EmbreeScene::scene_flags() const {
+    return any_single_sided_ ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
+                             : RTC_SCENE_FLAG_ROBUST;
 }
 
 EmbreeScene::~EmbreeScene() {
@@ -202,14 +219,16 @@ void EmbreeScene::attach_polygons(RTCScene mesh_scene, RTCBuffer positions, cons
 
 void EmbreeScene::attach(RTCScene mesh_scene, RTCGeometry geometry, const Mesh& mesh,
                          const Scene& scene, GeometryKind kind) {
-    if (any_see_through(mesh, scene)) {
-        any_filter_ = true;
-        rtcSetGeometryIntersectFilterFunction(geometry, see_through_filter);
-        rtcSetGeometryOccludedFilterFunction(geometry, see_through_filter);
-    }
+    set_filter(geometry, any_see_through(mesh, scene));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(mesh_scene, geometry, kind);
     rtcReleaseGeometry(geometry);
+}
+
+void EmbreeScene::set_filter(RTCGeometry geometry, bool see_through) {
+    any_filter_ |= see_through;
+    rtcSetGeometryIntersectFilterFunction(geometry, see_through ? see_through_filter : nullptr);
+    rtcSetGeometryOccludedFilterFunction(geometry, see_through ? see_through_filter : nullptr);
 }
 
 void EmbreeScene::place(const Scene& scene, std::size_t object) {
@@ -232,20 +251,6 @@ void EmbreeScene::place(const Scene& scene, std::size_t object) {
         const Vec3 p = glm::abs(Vec3(m * Vec4(local, 1)));
         instance.extent = std::max({instance.extent, p.x, p.y, p.z});
     }
-}
-
-void EmbreeScene::set_transform(const Scene& scene, ObjectId object) {
-    check(index_of(object) < objects_.size(), "set_transform: unknown object");
-    if (objects_[index_of(object)].geometry == nullptr) return;
-    place(scene, index_of(object));
-    const Mat4& to_world = scene.objects[index_of(object)].to_world;
-    for (const Shown& shown : shown_)
-        if (shown.object == object) set_matrix(shown.instance, to_world);
-    arena_.execute([&] {
-        rtcCommitScene(top_);
-        if (eye_ != nullptr) rtcCommitScene(eye_);
-    });
-    check_device("moving an object");
 }
 
 void EmbreeScene::check_device(const char* what) const {

@@ -16,6 +16,11 @@ namespace chiaro {
 
 struct ShownCurves;
 
+/// True if rays may pass any of the mesh's surfaces.
+bool any_see_through(const Mesh& mesh, const Scene& scene);
+/// True if the camera looks through any of the scene's materials from behind.
+bool has_single_sided(const Scene& scene);
+
 /// A hit as Embree tells it.
 struct RawHit {
     std::uint32_t object;
@@ -80,13 +85,22 @@ public:
     bool any_filter() const { return any_filter_; }
 
     void set_transform(const Scene& scene, ObjectId object);
+    void set_shown(const Scene& scene, ObjectId object);
+    void add_objects(const Scene& scene);
+    void set_material(const Scene& scene, MaterialId material);
     /// See RayCaster.
     void show_curves(const Scene& scene, std::vector<ShownCurves> curves);
     float curve_tolerance(MeshId mesh) const { return curve_tolerances_[index_of(mesh)]; }
 
 private:
     void build(const Scene& scene);
+    void add_instances(const Scene& scene);
+    void add_instance(const Scene& scene, std::size_t object);
+    void follow_sides(const Scene& scene);
+    void follow_filter(const Scene& scene, MeshId mesh);
+    void commit(const char* what);
     RTCScene new_scene() const;
+    RTCSceneFlags scene_flags() const;
     void build_mesh(MeshId mesh, const Scene& scene);
     void release();
     void attach_polygons(RTCScene mesh_scene, RTCBuffer positions, const Mesh& mesh,
@@ -96,6 +110,7 @@ private:
                        const Scene& scene);
     void attach(RTCScene mesh_scene, RTCGeometry geometry, const Mesh& mesh, const Scene& scene,
                 GeometryKind kind);
+    void set_filter(RTCGeometry geometry, bool see_through);
     void place(const Scene& scene, std::size_t object);
     static void set_matrix(RTCGeometry instance, const Mat4& to_world);
 

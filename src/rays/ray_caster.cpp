@@ -127,6 +127,19 @@ void RayCaster::set_transform(ObjectId object) {
     embree_->scene.set_transform(*scene_, object);
 }
 
+void RayCaster::set_shown(ObjectId object) {
+    embree_->scene.set_shown(*scene_, object);
+}
+
+void RayCaster::add_objects() {
+    embree_->scene.add_objects(*scene_);
+}
+
+void RayCaster::set_material(MaterialId material) {
+    check(index_of(material) < scene_->materials.size(), "set_material: unknown material");
+    embree_->scene.set_material(*scene_, material);
+}
+
 void RayCaster::show_curves(std::vector<ShownCurves> curves) {
     embree_->scene.show_curves(*scene_, std::move(curves));
 }

@@ -53,7 +53,8 @@ struct ShownCurves {
 /// triangles made once, so that no look from elsewhere changes what light meets.
 ///
 /// Thread: const calls from any number of threads. Keeps a reference to the scene, which must
-/// outlive it; set_transform() follows a moved object without touching its geometry.
+/// outlive it; set_transform() and its kin follow edits of the scene without touching geometry that
+/// stands.
 class RayCaster {
 public:
     RayCaster(const Scene& scene, int threads, float curve_tolerance = kCurveTolerance);
@@ -85,6 +86,18 @@ public:
     /// The object's `to_world` has changed: about 0.05 ms, whatever its size. Not while others
     /// cast.
     void set_transform(ObjectId object);
+
+    /// The object's `shown` has changed; no ray meets one that is hidden, also from the start. Not
+    /// while others cast.
+    void set_shown(ObjectId object);
+
+    /// Objects, and perhaps meshes and materials, were appended to the scene. The eye sees curved
+    /// ones as other rays do until show_curves() is called again. Not while others cast.
+    void add_objects();
+
+    /// The material has changed: rays may pass surfaces that stopped them, or the other way round.
+    /// Not while others cast.
+    void set_material(MaterialId material);
 
     /// From now on rays from the camera see the curves of these objects so, and those of all others
     /// as other rays do. No coarser than these see them. Not while others cast.

@@ -54,7 +54,7 @@ SampledSurfaces focusing_surfaces(const Scene& scene) {
     std::vector<SurfaceWeight> weights(scene.materials.size());
     std::vector<char> known(scene.materials.size(), 0);
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
-        if (scene.objects[o].mesh == MeshId::none) continue;
+        if (scene.objects[o].mesh == MeshId::none || !scene.objects[o].shown) continue;
         const std::vector<Primitive>& primitives = scene.mesh_of(scene.objects[o]).primitives;
         for (std::uint32_t p = 0; p < primitives.size(); ++p) {
             const std::size_t material = index_of(primitives[p].material);

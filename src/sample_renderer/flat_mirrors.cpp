@@ -22,7 +22,7 @@ std::vector<FlatMirror> find_flat_mirrors(const Scene& scene) {
     std::vector<FlatMirror> mirrors;
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
         const Object& object = scene.objects[o];
-        if (object.mesh == MeshId::none) continue;
+        if (object.mesh == MeshId::none || !object.shown) continue;
         const Mesh& mesh = scene.mesh_of(object);
         const auto id = static_cast<ObjectId>(o);
         const auto flat_from = static_cast<std::uint32_t>(mesh.bicubics.size());

@@ -27,7 +27,7 @@ PunctualLights::PunctualLights(const Scene& scene) {
     double sum = 0;
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const PunctualLight& light = scene.lights[i];
-        if (!(max_component(light.intensity) > 0)) continue;
+        if (!light.lit()) continue;
         if (light.kind == LightKind::directional) {
             suns_.push_back(i);
             continue;

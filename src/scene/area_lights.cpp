@@ -5,19 +5,21 @@ namespace {
 
 // By luminance, zero where a material is dark: a texture's mean is taken once. It is good enough to
 // choose by, and never zero where the texture has any light at all.
-std::vector<SurfaceWeight> luminances(const Scene& scene) {
-    std::vector<SurfaceWeight> result(scene.materials.size());
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const Material& material = scene.materials[i];
-        if (material.emissive())
-            result[i] = {choice_weight(mean_emission(scene, material)), material.emits_backward};
-    }
-    return result;
+SampledSurfaces emitting_surfaces(const Scene& scene) {
+    std::vector<Rgb> means(scene.materials.size(), Rgb(0));
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (scene.materials[i].emissive()) means[i] = mean_emission(scene, scene.materials[i]);
+    return SampledSurfaces(scene, [&](ObjectId object, std::uint32_t p) -> SurfaceWeight {
+        const MaterialId material = material_of(scene, {object, p});
+        const Rgb scale = scene.objects[index_of(object)].emission_scale;
+        return {choice_weight(scale * means[index_of(material)]),
+                scene.material(material).emits_backward};
+    });
 }
 
 }  // namespace
 
-AreaLights::AreaLights(const Scene& scene) : scene_(&scene), surfaces_(scene, luminances(scene)) {
+AreaLights::AreaLights(const Scene& scene) : scene_(&scene), surfaces_(emitting_surfaces(scene)) {
     plain_.reserve(surfaces_.size());
     for (std::uint32_t i = 0; i < surfaces_.size(); ++i) {
         const SurfacePoint& where = surfaces_.where(i);

@@ -1,4 +1,4 @@
-// Emissive surfaces as lights that can be sampled: every primitive whose material emits.
+// Emissive surfaces as lights that can be sampled: every primitive that emits.
 #pragma once
 
 #include "scene/sampled_surfaces.h"
@@ -8,7 +8,7 @@ namespace chiaro {
 /// A point on an area light; `surface` is the light.
 using AreaLightSample = SurfaceSample;
 
-/// All emissive primitives of a scene, weighted by their luminance.
+/// All emissive primitives of the objects that are shown, weighted by their luminance.
 ///
 /// Thread: as SampledSurfaces. Keeps a reference to the scene; build anew when emitters, their
 /// places or their textures change.

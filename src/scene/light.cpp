@@ -19,11 +19,13 @@ float spot_falloff(const PunctualLight& light, float cos_angle) {
 }  // namespace
 
 Rgb intensity_toward(const PunctualLight& light, Vec3 w) {
+    if (!light.on) return Rgb(0);
     if (light.kind != LightKind::spot) return light.intensity;
     return light.intensity * spot_falloff(light, glm::dot(w, light.direction));
 }
 
 std::optional<PunctualArrival> arrival(const PunctualLight& light, Vec3 point) {
+    if (!light.on) return std::nullopt;
     if (light.kind == LightKind::directional)
         return PunctualArrival{-light.direction, kInfinity, light.intensity};
 

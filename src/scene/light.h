@@ -19,10 +19,13 @@ struct PunctualLight {
     float inner_cone = 0;             // spot: radians from the axis to full intensity
     float outer_cone = 0.785398163f;  // spot: radians from the axis to none
     float range = kInfinity;          // kept from the file; light is not cut off at it
+    bool on = true;                   // false: nothing comes from it
+
+    bool lit() const { return on && max_component(intensity) > 0; }
 };
 
 /// Intensity that a point or spot sends along unit direction `w` [cd a channel]; black outside a
-/// spot's cone.
+/// spot's cone and of a light that is off.
 Rgb intensity_toward(const PunctualLight& light, Vec3 w);
 
 /// Light that a punctual source would send to a point, were nothing in between.
@@ -32,7 +35,8 @@ struct PunctualArrival {
     Rgb irradiance;  // on a surface facing the light [lux a channel]
 };
 
-/// What `light` sends to `point` (world); nothing outside a spot's cone or at the source itself.
+/// What `light` sends to `point` (world); nothing outside a spot's cone, at the source itself or
+/// of a light that is off.
 /// Spot falloff as KHR_lights_punctual recommends: the square of a ramp in the cosine of the angle
 /// from the axis, 1 at the inner cone and 0 at the outer.
 std::optional<PunctualArrival> arrival(const PunctualLight& light, Vec3 point);

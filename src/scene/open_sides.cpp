@@ -5,8 +5,13 @@
 namespace chiaro {
 
 OpenSides::OpenSides(const Scene& scene) {
+    add_objects(scene);
+}
+
+void OpenSides::add_objects(const Scene& scene) {
+    const std::size_t first = objects_.size();
     objects_.resize(scene.objects.size());
-    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    for (std::size_t i = first; i < scene.objects.size(); ++i)
         if (scene.objects[i].mesh != MeshId::none)
             objects_[i].sides.resize(scene.mesh_of(scene.objects[i]).primitives.size());
 }

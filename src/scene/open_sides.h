@@ -16,6 +16,9 @@ public:
     /// Nothing is known yet of any object of `scene`, which is not kept.
     explicit OpenSides(const Scene& scene);
 
+    /// Nor of those that were appended to the scene since. Not while others read.
+    void add_objects(const Scene& scene);
+
     /// The front (or back) of the primitive was seen from a good place.
     void mark(ObjectId object, std::uint32_t primitive, bool front);
 

@@ -34,7 +34,7 @@ SampledSurfaces::SampledSurfaces(const Scene& scene, const WeightOf& weight_of)
     : surface_of_(scene.objects.size()) {
     std::vector<LightBounds> bounds;
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
-        if (scene.objects[o].mesh == MeshId::none) continue;
+        if (scene.objects[o].mesh == MeshId::none || !scene.objects[o].shown) continue;
         const auto more = add_object(scene, static_cast<ObjectId>(o), weight_of);
         bounds.insert(bounds.end(), more.begin(), more.end());
     }

@@ -71,6 +71,94 @@ void check_primitive(const Scene& scene, const Mesh& mesh, std::size_t index) {
     check(index_of(primitive.material) < scene.materials.size(), "scene: material out of range");
 }
 
+void check_texture(const Texture& texture) {
+    check(texture.width > 0 && texture.height > 0, "scene: a texture is empty");
+    check(texture.texels.size() == static_cast<std::size_t>(texture.width) * texture.height,
+          "scene: a texture's size is not that of its texels");
+}
+
+void check_environment(const Environment& environment) {
+    const auto sound = [](Rgb c) {
+        return is_finite(c) && glm::all(glm::greaterThanEqual(c, Rgb(0)));
+    };
+    const Image& map = environment.map;
+    check(sound(environment.sky), "scene: the sky is not finite or negative");
+    check(map.width >= 0 && map.height >= 0 &&
+              map.pixels.size() == static_cast<std::size_t>(map.width) * map.height,
+          "scene: the environment's size is not that of its pixels");
+    check(std::ranges::all_of(map.pixels, sound),
+          "scene: the environment is not finite or negative");
+}
+
+// By material. A black texture makes an emissive one dark.
+std::vector<Rgb> emissions(const Scene& scene) {
+    std::vector<Rgb> result;
+    for (const Material& material : scene.materials) {
+        const TextureUse& use = material.emission_texture;
+        const Rgb tint =
+            material.emissive() && use.used() ? mean_color(scene.texture(use.texture)) : Rgb(1);
+        result.push_back(material.emission * tint);
+    }
+    return result;
+}
+
+bool any_emits(const Scene& scene, const Object& object, std::span<const Rgb> emissions) {
+    return std::ranges::any_of(scene.mesh_of(object).primitives, [&](const Primitive& primitive) {
+        return max_component(emissions[index_of(primitive.material)] * object.emission_scale) > 0;
+    });
+}
+
+}  // namespace
+
+Box bounds(const Scene& scene) {
+    Box box;
+    for (const Object& object : scene.objects)
+        if (object.shown) box.add(bounds(scene.mesh_of(object), object.to_world));
+    return box;
+}
+
+Box bounds(const Mesh& mesh, const Mat4& to_world) {
+    Box box;
+    for (const BicubicPatch& patch : mesh.bicubics) box.add(hull(transformed(patch, to_world)));
+    for (const Primitive& primitive : std::span(mesh.primitives).subspan(mesh.bicubics.size()))
+        for (int i = 0; i < primitive.corner_count(); ++i)
+            box.add(Vec3(to_world * Vec4(mesh.positions[primitive.corners[i]], 1)));
+    return box;
+}
+
+bool emits(const Scene& scene, const Object& object) {
+    return object.shown && any_emits(scene, object, emissions(scene));
+}
+
+bool has_light(const Scene& scene) {
+    const std::vector<Rgb> known = emissions(scene);
+    const auto shines = [&](const Object& object) {
+        return object.shown && any_emits(scene, object, known);
+    };
+    return std::ranges::any_of(scene.lights, &PunctualLight::lit) ||
+           std::ranges::any_of(scene.objects, shines) || !is_dark(scene.environment);
+}
+
+std::size_t order_primitives(Mesh& mesh) {
+    std::size_t dropped = settle_bicubics(mesh);
+    const auto first = mesh.primitives.begin() + static_cast<std::ptrdiff_t>(mesh.bicubics.size());
+    std::vector<Primitive> quads(mesh.primitives.begin(), first);  // by their corners
+    std::vector<Primitive> triangles;
+    for (const Primitive& primitive : std::span(first, mesh.primitives.end())) {
+        for (int i = 0; i < primitive.corner_count(); ++i)
+            check(primitive.corners[i] < mesh.positions.size(),
+                  "order_primitives: corner out of range");
+        const std::optional<Primitive> clean = without_repeated_corners(mesh, primitive);
+        if (!clean || !has_area(mesh, *clean)) continue;
+        (clean->is_quad() ? quads : triangles).push_back(*clean);
+    }
+    dropped += mesh.primitives.size() - quads.size() - triangles.size();
+    mesh.quad_count = static_cast<std::uint32_t>(quads.size());
+    mesh.primitives = std::move(quads);
+    mesh.primitives.insert(mesh.primitives.end(), triangles.begin(), triangles.end());
+    return dropped;
+}
+
 void check_mesh(const Scene& scene, const Mesh& mesh) {
     const auto one_a_point = [&](const auto& array) {
         return array.empty() || array.size() == mesh.positions.size();
@@ -98,6 +186,9 @@ void check_object(const Scene& scene, const Object& object) {
     check(m[0].w == 0 && m[1].w == 0 && m[2].w == 0 && m[3].w == 1,
           "scene: to_world is not affine");
     check(glm::determinant(glm::dmat3(m)) != 0, "scene: to_world is singular");
+    check(is_finite(object.emission_scale) &&
+              glm::all(glm::greaterThanEqual(object.emission_scale, Rgb(0))),
+          "scene: an emission scale is not finite or negative");
 }
 
 void check_material(const Scene& scene, const Material& material) {
@@ -110,12 +201,6 @@ void check_material(const Scene& scene, const Material& material) {
     check(is_finite(material.emission), "scene: an emission is not finite");
 }
 
-void check_texture(const Texture& texture) {
-    check(texture.width > 0 && texture.height > 0, "scene: a texture is empty");
-    check(texture.texels.size() == static_cast<std::size_t>(texture.width) * texture.height,
-          "scene: a texture's size is not that of its texels");
-}
-
 void check_camera(const Camera& camera) {
     check(is_finite(camera.eye) && is_finite(camera.target) && is_finite(camera.up),
           "scene: a camera is not finite");
@@ -126,74 +211,6 @@ void check_camera(const Camera& camera) {
 void check_light(const PunctualLight& light) {
     check(is_finite(light.position) && is_finite(light.direction) && is_finite(light.intensity),
           "scene: a light is not finite");
-}
-
-void check_environment(const Environment& environment) {
-    const auto sound = [](Rgb c) {
-        return is_finite(c) && glm::all(glm::greaterThanEqual(c, Rgb(0)));
-    };
-    const Image& map = environment.map;
-    check(sound(environment.sky), "scene: the sky is not finite or negative");
-    check(map.width >= 0 && map.height >= 0 &&
-              map.pixels.size() == static_cast<std::size_t>(map.width) * map.height,
-          "scene: the environment's size is not that of its pixels");
-    check(std::ranges::all_of(map.pixels, sound),
-          "scene: the environment is not finite or negative");
-}
-
-}  // namespace
-
-Box bounds(const Scene& scene) {
-    Box box;
-    for (const Object& object : scene.objects) {
-        const Mesh& mesh = scene.mesh_of(object);
-        for (const BicubicPatch& patch : mesh.bicubics)
-            box.add(hull(transformed(patch, object.to_world)));
-        for (const Primitive& primitive : std::span(mesh.primitives).subspan(mesh.bicubics.size()))
-            for (int i = 0; i < primitive.corner_count(); ++i)
-                box.add(Vec3(object.to_world * Vec4(mesh.positions[primitive.corners[i]], 1)));
-    }
-    return box;
-}
-
-bool has_light(const Scene& scene) {
-    // A black texture makes an emissive material dark.
-    std::vector<bool> emissive;
-    for (const Material& material : scene.materials) {
-        const TextureUse& use = material.emission_texture;
-        const Rgb tint =
-            material.emissive() && use.used() ? mean_color(scene.texture(use.texture)) : Rgb(1);
-        emissive.push_back(max_component(material.emission * tint) > 0);
-    }
-    const auto emits = [&](const Primitive& primitive) {
-        return emissive[index_of(primitive.material)];
-    };
-    const auto shines = [&](const Object& object) {
-        return std::ranges::any_of(scene.mesh_of(object).primitives, emits);
-    };
-    const auto lit = [](const PunctualLight& light) { return max_component(light.intensity) > 0; };
-    return std::ranges::any_of(scene.lights, lit) || std::ranges::any_of(scene.objects, shines) ||
-           !is_dark(scene.environment);
-}
-
-std::size_t order_primitives(Mesh& mesh) {
-    std::size_t dropped = settle_bicubics(mesh);
-    const auto first = mesh.primitives.begin() + static_cast<std::ptrdiff_t>(mesh.bicubics.size());
-    std::vector<Primitive> quads(mesh.primitives.begin(), first);  // by their corners
-    std::vector<Primitive> triangles;
-    for (const Primitive& primitive : std::span(first, mesh.primitives.end())) {
-        for (int i = 0; i < primitive.corner_count(); ++i)
-            check(primitive.corners[i] < mesh.positions.size(),
-                  "order_primitives: corner out of range");
-        const std::optional<Primitive> clean = without_repeated_corners(mesh, primitive);
-        if (!clean || !has_area(mesh, *clean)) continue;
-        (clean->is_quad() ? quads : triangles).push_back(*clean);
-    }
-    dropped += mesh.primitives.size() - quads.size() - triangles.size();
-    mesh.quad_count = static_cast<std::uint32_t>(quads.size());
-    mesh.primitives = std::move(quads);
-    mesh.primitives.insert(mesh.primitives.end(), triangles.begin(), triangles.end());
-    return dropped;
 }
 
 void check_scene(const Scene& scene) {

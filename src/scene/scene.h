@@ -48,7 +48,9 @@ struct Mesh {
 struct Object {
     std::string name;
     MeshId mesh = MeshId::none;
-    Mat4 to_world = Mat4(1);  // affine, finite, not singular
+    Mat4 to_world = Mat4(1);      // affine, finite, not singular
+    bool shown = true;            // false: it is as if it were not there, but keeps its id
+    Rgb emission_scale = Rgb(1);  // multiplies what its surfaces emit; finite, not negative
 };
 
 /// Primitives of all objects together, each counted where it is shown.
@@ -70,10 +72,16 @@ struct Scene {
     const Texture& texture(TextureId id) const { return textures[index_of(id)]; }
 };
 
-/// Bounds in world space of all objects.
+/// Bounds in world space of all objects that are shown.
 Box bounds(const Scene& scene);
 
-/// True if anything emits: a punctual light, a primitive of an emissive material, the environment.
+/// Bounds of a mesh put in a place; of bicubic patches, those of their control points.
+Box bounds(const Mesh& mesh, const Mat4& to_world);
+
+/// True if the object is shown and one of its primitives emits, be it by its texture alone.
+bool emits(const Scene& scene, const Object& object);
+
+/// True if anything emits: a punctual light, an object, the environment.
 bool has_light(const Scene& scene);
 
 /// Makes primitives ready for use: bicubic patches, which must come first, divided where edges
@@ -85,5 +93,12 @@ std::size_t order_primitives(Mesh& mesh);
 /// Ends the program if an index or size of the scene is wrong: importers and built-in scenes
 /// promise all that scene.h says.
 void check_scene(const Scene& scene);
+
+/// The same of one thing, which need not stand in the scene yet.
+void check_mesh(const Scene& scene, const Mesh& mesh);
+void check_object(const Scene& scene, const Object& object);
+void check_material(const Scene& scene, const Material& material);
+void check_light(const PunctualLight& light);
+void check_camera(const Camera& camera);
 
 }  // namespace chiaro

@@ -182,14 +182,15 @@ Rgb mean_reflectance(const Scene& scene, const Material& material) {
 }
 
 Rgb emission(const Scene& scene, const SurfacePoint& point, bool front) {
-    const Mesh& mesh = scene.mesh_of(scene.objects[index_of(point.object)]);
+    const Object& object = scene.objects[index_of(point.object)];
+    const Mesh& mesh = scene.mesh_of(object);
     const Primitive& primitive = mesh.primitives[point.primitive];
     const Material& material = scene.material(primitive.material);
     if (!front && !material.emits_backward) return Rgb(0);
-    if (!material.emission_texture.used()) return material.emission;
+    const Rgb plain = object.emission_scale * material.emission;
+    if (!material.emission_texture.used()) return plain;
     const CornerWeights w = corner_weights(primitive.is_quad(), point.u, point.v);
-    return material.emission *
-           Rgb(texture_value(scene, material.emission_texture, mesh, primitive, w));
+    return plain * Rgb(texture_value(scene, material.emission_texture, mesh, primitive, w));
 }
 
 Rgb mean_emission(const Scene& scene, const Material& material) {

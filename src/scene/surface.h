@@ -87,10 +87,12 @@ Vec2 metallic_roughness(const Scene& scene, const SurfacePoint& point);
 /// Mean of base_color() over a material's texture, vertex colours aside.
 Rgb mean_reflectance(const Scene& scene, const Material& material);
 
-/// Exitant radiance by emission from the point's front (`front`) or back face [cd/m2 a channel].
+/// Exitant radiance by emission from the point's front (`front`) or back face [cd/m2 a channel]; as
+/// its object scales it.
 Rgb emission(const Scene& scene, const SurfacePoint& point, bool front);
 
-/// Mean of emission() over a material's texture, not 0 if any of it shines.
+/// Mean of emission() over a material's texture, not 0 if any of it shines; what an object scales
+/// it by aside.
 Rgb mean_emission(const Scene& scene, const Material& material);
 
 /// Area in world space of a primitive [scene units squared].
