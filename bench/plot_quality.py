@@ -16,8 +16,9 @@ from results import draw_error, finish_error, seconds_to, write_table
 
 ORDER = ["cornell", "room", "indirect", "poolhall", "kitchen", "classroom"]
 NAMES = {"best": "Shading Cache, best scheme", "paper": "Shading Cache, paper's scheme",
-         "best, traced": "best scheme, paths traced to their ends", "path": "path tracing a pixel"}
-COLORS = {"best": "tab:blue", "best, traced": "tab:green", "paper": "tab:orange", "path": "tab:gray"}
+         "best, traced": "best scheme, paths traced to their ends",
+         "best, bidirectional": "best scheme, bidirectional", "path": "path tracing a pixel"}
+COLORS = {"best": "tab:blue", "best, traced": "tab:green", "best, bidirectional": "tab:purple", "paper": "tab:orange", "path": "tab:gray"}
 
 
 def extrapolated(rows, psnr):
@@ -45,7 +46,7 @@ def table(runs):
     for run in runs:
         paper, path = run["methods"]["paper"], run["methods"]["path"]
         t40, measured = path_seconds(path, 40)
-        for method in ("best", "best, traced"):
+        for method in [name for name in NAMES if name.startswith("best") and name in run["methods"]]:
             rows = run["methods"][method]
             b40 = seconds_to(rows, 40)
             common = min(max(r["psnr"] for r in rows), max(r["psnr"] for r in paper)) - 0.1

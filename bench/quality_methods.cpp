@@ -32,6 +32,11 @@ constexpr Method kMethods[] = {
      .title = "best, traced",
      .cached = true,
      .levels = CoarserLevels::up_to_a_tenth},
+    {.option = "bidirectional",
+     .title = "best, bidirectional",
+     .cached = true,
+     .renderer = RendererName::bidirectional,
+     .levels = CoarserLevels::up_to_a_tenth},
     {.option = "paper", .title = "paper", .cached = true, .scheme = Scheme::paper},
     {.option = "path", .title = "path", .cached = false},
 };

@@ -50,7 +50,7 @@ void add_options(CLI::App& app, Settings& s) {
                    "halve edges until none is longer than this part of the scene's diagonal, as "
                    "200 for 1/200")
         ->check(CLI::PositiveNumber);
-    app.add_option("--methods", s.methods, "of best, roots, traced, paper, path")
+    app.add_option("--methods", s.methods, "of best, roots, traced, bidirectional, paper, path")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--pictures", s.pictures, "a folder for pictures at several times");
