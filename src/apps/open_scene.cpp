@@ -5,6 +5,7 @@
 #include "import/directions.h"
 #include "import/finish_scene.h"
 #include "import/load_environment.h"
+#include "import/resolve_edits.h"
 #include "scene/built_in.h"
 
 #include <algorithm>
@@ -92,6 +93,12 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     if (!(glm::length(glm::cross(forward, camera.up)) > 1e-6f * glm::length(forward)))
         throw Error("--up", "it points along the line of sight", "give --eye and another vertical");
     return camera;
+}
+
+void apply_edits(Scene& scene, Camera& camera, const Options& options) {
+    if (options.edits.empty()) return;
+    for (const Edit& edit : resolve_edits(read_edits(options.edits), scene, camera))
+        apply(scene, camera, edit);
 }
 
 void add_headlamp_if_dark(Scene& scene, const Camera& camera) {

@@ -66,7 +66,7 @@ void drop_empty_objects(Scene& scene, const std::string& where) {
         kept.push_back(object);
     }
     scene.objects = std::move(kept);
-    for (Node& node : scene.nodes)
+    for (SceneNode& node : scene.nodes)
         if (node.object != ObjectId::none) node.object = moved[index_of(node.object)];
 }
 

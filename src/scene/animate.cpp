@@ -63,7 +63,7 @@ bool usable(const glm::dmat4& to_world) {
     return true;
 }
 
-void add_edits(const Scene& scene, const Node& node, const Mat4& to_world,
+void add_edits(const Scene& scene, const SceneNode& node, const Mat4& to_world,
                std::vector<Edit>& edits) {
     if (node.object != ObjectId::none) edits.emplace_back(SetTransform{node.object, to_world});
     if (node.light != LightId::none) {
@@ -87,7 +87,7 @@ std::vector<Edit> animate(const Scene& scene, const Animation& animation, double
     // Parents come before their children: to_parent becomes the way to the world.
     std::vector<Edit> edits;
     for (std::size_t i = 0; i < ways.size(); ++i) {
-        const Node& node = scene.nodes[i];
+        const SceneNode& node = scene.nodes[i];
         const bool root = node.parent == NodeId::none;
         check(root || index_of(node.parent) < i, "animate: a node comes before its parent");
         const Way above =

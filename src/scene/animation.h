@@ -21,7 +21,7 @@ struct Pose {
 glm::dmat4 matrix_of(const Pose& pose);
 
 /// A transform in the hierarchy, and what hangs on it.
-struct Node {
+struct SceneNode {
     std::string name;              // as in the file; several nodes may share one
     NodeId parent = NodeId::none;  // before this one in Scene::nodes
     std::variant<Pose, glm::dmat4> to_parent = Pose{};  // an animated node has a pose

@@ -64,7 +64,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<PunctualLight> lights;
     std::vector<Camera> cameras;
-    std::vector<Node> nodes;        // the file's hierarchy, parents first; may be empty
+    std::vector<SceneNode> nodes;   // the file's hierarchy, parents first; may be empty
     Mat4 nodes_to_world = Mat4(1);  // where nodes without parent stand
     std::vector<Animation> animations;
     Environment environment;
