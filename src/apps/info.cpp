@@ -97,8 +97,7 @@ void print_list(const nlohmann::ordered_json& j, const char* what) {
 
 int info_command(const Options& options) {
     Scene scene = open_scene(options);
-    Camera nobodys;
-    apply_edits(scene, nobodys, options);
+    apply_edits(scene, options);
     const nlohmann::ordered_json j = describe(scene);
     if (options.json) {
         // Names come from files: whatever is no UTF-8 in them is replaced, not an error.

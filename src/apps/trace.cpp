@@ -172,8 +172,7 @@ int trace_command(const Options& options) {
         throw Error("--lux", "radiance is not measured in lux", "add -I");
     const Effort effort = effort_of(options);
     Scene scene = open_scene(options);
-    Camera nobodys;
-    apply_edits(scene, nobodys, options);
+    apply_edits(scene, options);
     const RayCaster rays(scene, effort.threads, curve_tolerance(options));
     const AreaLights area_lights(scene);
     const LitScene lit = make_lit_scene(scene, rays, area_lights);

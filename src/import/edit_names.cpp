@@ -25,6 +25,7 @@ EditNames::EditNames(const Scene& loaded) : nodes_(loaded.nodes) {
 }
 
 NamedThings EditNames::things(const std::string& name) const {
+    if (name.empty()) return {};  // nodes without a name have none
     if (const auto added = added_.find(name); added != added_.end()) return added->second;
     const auto exact = objects_.find(name);
     const ObjectId object = exact == objects_.end() ? ObjectId::none : exact->second;

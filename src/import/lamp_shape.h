@@ -15,6 +15,8 @@ struct LampShape {
     glm::dvec3 emitted = glm::dvec3(0);  // mean radiance times area
     glm::dvec3 edge = glm::dvec3(0);     // the longest side of any of them
 
+    /// Whether anything shines, be it by its texture alone.
+    bool shines() const { return area > 0 && luminance(Rgb(emitted)) > 0; }
     /// The mean radiance [cd/m2 a channel] at an emission scale of 1; there is area.
     Rgb radiance() const { return Rgb(emitted / area); }
     /// Where it faces, unit; nothing if it shines all round.

@@ -117,34 +117,44 @@ std::vector<Edit> EditResolver::operator()(const Remove& edit) {
 }
 
 std::vector<Edit> EditResolver::operator()(const CopyObject& edit) {
-    refuse_taken(edit.name, "object");
+    refuse_taken(edit.name, "add.object");
     const NamedThings originals = names_.things(edit.original);
     if (originals.empty())
-        throw Error(at("copy"), "there is no object " + quoted(edit.original),
+        throw Error(at("add.copy"), "there is no object " + quoted(edit.original),
                     names_.object_names());
     Placement placement = {box_of(originals)};
     change(edit.place, placement);
 
+    const std::vector<PunctualLight> as_edited = lights_;
+    std::vector<Edit> moves = placed(originals, placement);
+    lights_ = as_edited;  // the originals stay where they are
+
     std::vector<Edit> edits;
     NamedThings copies;
-    for (Edit& edit_of : placed(originals, placement)) {
-        const std::size_t count = edits.size();
-        const std::string name =
-            count == 0 ? edit.name : fmt::format("{}.{}", edit.name, count + 1);
+    for (Edit& edit_of : moves) {
+        const std::string name = edits.empty() ? edit.name : free_name(edit.name);
         if (const auto* there = std::get_if<SetTransform>(&edit_of)) {
             Object copy = objects_[index_of(there->object)];
             copy.name = name;
             copy.to_world = there->to_world;
             copies.objects.push_back(add(copy));
+            if (!edits.empty()) names_.add(name, {{copies.objects.back()}, {}});
             edits.emplace_back(AddObject{copy});
         } else if (auto* light = std::get_if<SetLight>(&edit_of)) {
             light->value.name = name;
             copies.lights.push_back(add(light->value));
+            if (!edits.empty()) names_.add(name, {{}, {copies.lights.back()}});
             edits.emplace_back(AddLight{light->value});
         }
     }
     names_.add(edit.name, std::move(copies));
     return edits;
+}
+
+// Of the second and further parts of a copy.
+std::string EditResolver::free_name(const std::string& name) const {
+    for (int i = 2;; ++i)
+        if (std::string free = fmt::format("{}.{}", name, i); !names_.taken(free)) return free;
 }
 
 void EditResolver::refuse_taken(const std::string& name, const char* key) const {

@@ -69,6 +69,7 @@ private:
 
     const Mesh& mesh_of(const Object& object) const;
     void refuse_taken(const std::string& name, const char* key) const;
+    std::string free_name(const std::string& name) const;
     ObjectId add(const Object& object);
     LightId add(const PunctualLight& light);
     std::string at(const char* key) const { return where_ + "." + key; }

@@ -56,7 +56,7 @@ std::vector<Edit> EditResolver::operator()(const ChangeLight& edit) {
     const std::vector<LightId> lamps = names_.lights(edit.name);
     if (lamps.empty()) {
         const NamedThings things = names_.things(edit.name);
-        const auto emits = [&](ObjectId id) { return shape_of({{id}, {}}).area > 0; };
+        const auto emits = [&](ObjectId id) { return shape_of({{id}, {}}).shines(); };
         if (std::ranges::any_of(things.objects, emits)) return changed_area_light(things, edit);
         throw Error(at("light"),
                     things.empty() ? "there is no light \"" + printable(edit.name) + "\""
@@ -119,7 +119,7 @@ std::vector<Edit> EditResolver::changed_area_light(const NamedThings& things,
     if (!(edit.nits || edit.intensity_scale || edit.color || edit.on)) return edits;
     for (const ObjectId id : things.objects) {
         const LampShape shape = shape_of({{id}, {}});
-        if (shape.area > 0) edits.push_back(changed_emission(id, shape.radiance(), edit));
+        if (shape.shines()) edits.push_back(changed_emission(id, shape.radiance(), edit));
     }
     return edits;
 }

@@ -185,11 +185,13 @@ TEST(ResolveEdits, CopiesStandBesideTheirOriginals) {
     stage.edit(R"({"object": "Chair", "translate": [9, 0, 0]},
                   {"add": {"object": "Stool", "copy": "Chair", "translate": [0, 5, 0]}},
                   {"object": "Stool", "translate": [0, 0, 1]},
-                  {"add": {"object": "Stool 2", "copy": "Stool"}})");
+                  {"add": {"object": "Stool 2", "copy": "Stool"}},
+                  {"object": "Stool 2.2", "scale": 2})");
     ASSERT_EQ(stage.scene.objects.size(), 8u);
     expect_near(stage.box("Stool").low, {1, 5, 2});
     expect_near(stage.box("Stool.2").low, {1, 6, 2});
     expect_near(stage.box("Stool 2").low, {1, 5, 1});
+    expect_near(stage.box("Stool 2.2").high - stage.box("Stool 2.2").low, {2, 2, 2});
     EXPECT_EQ(stage.object("Stool").mesh, stage.object("Chair/seat").mesh);
 }
 
@@ -217,7 +219,7 @@ TEST(ResolveEdits, WhatIsNotThereIsNamedWithWhatIs) {
               "material1");
     EXPECT_NE(stage.fault(R"({"remove": "Vase"})").find("there is no object or light \"Vase\""),
               std::string::npos);
-    EXPECT_NE(stage.fault(R"({"add": {"object": "A", "copy": "Vase"}})").find("edits[0].copy"),
+    EXPECT_NE(stage.fault(R"({"add": {"object": "A", "copy": "Vase"}})").find("edits[0].add.copy"),
               std::string::npos);
 }
 
@@ -237,7 +239,7 @@ TEST(ResolveEdits, KeysThatALightDoesNotHaveAreErrors) {
 TEST(ResolveEdits, WhatNoSceneMayHaveIsRefused) {
     Stage stage;
     EXPECT_EQ(stage.fault(R"({"add": {"object": "Bulb", "copy": "Floor"}})"),
-              "e.json: edits[0].object: the name \"Bulb\" is taken; choose another");
+              "e.json: edits[0].add.object: the name \"Bulb\" is taken; choose another");
     EXPECT_EQ(stage.fault(R"({"object": "Floor", "translate": [1e9, 0, 0], "scale": 1000})"),
               "e.json: edits[0]: moves something beyond 1e9");
     EXPECT_EQ(stage.fault(R"({"light": "Bulb", "intensity_scale": 9e14})"),
@@ -260,12 +262,16 @@ TEST(ResolveEdits, NodesCarryTheirChildren) {
     Camera camera;
     const EditScript script = parse_edits(
         R"({"edits": [{"object": "Lamp", "translate": [0, 0, 2]},
+                      {"add": {"object": "Lamp 2", "copy": "Lamp", "translate": [7, 0, 0]}},
                       {"light": "Lamp", "candela": 5}]})",
         "e");
     for (const Edit& e : resolve_edits(script, scene, camera)) apply(scene, camera, e);
     EXPECT_EQ(scene.objects[0].to_world[3].z, 2);
     EXPECT_EQ(scene.lights[0].position, Vec3(0, 1, 2));
-    EXPECT_EQ(scene.lights[0].intensity, Rgb(5));
+    EXPECT_NEAR(luminance(scene.lights[0].intensity), 5, 1e-5f);
+    EXPECT_EQ(scene.objects[1].to_world[3].x, 7);
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(scene.lights[1].position, Vec3(7, 1, 0));
 }
 
 }  // namespace
