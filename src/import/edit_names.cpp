@@ -77,21 +77,13 @@ void EditNames::add(const std::string& name, NamedThings things) {
     added_.emplace(name, std::move(things));
 }
 
-template <typename Id>
-std::string EditNames::listed(const std::map<std::string, Id>& names) {
+std::string EditNames::listed(std::span<const std::string> names) {
     constexpr std::size_t kMost = 20;
     if (names.empty()) return "there are none";
     std::string list;
-    std::size_t count = 0;
-    for (const auto& [name, id] : names) {
-        if (++count > kMost) return "there are " + list + ", ...";
+    for (const std::string& name : names.first(std::min(names.size(), kMost)))
         list += (list.empty() ? "" : ", ") + printable(name, 60);
-    }
-    return "there are " + list;
+    return "there are " + list + (names.size() > kMost ? ", ..." : "");
 }
-
-template std::string EditNames::listed(const std::map<std::string, ObjectId>& names);
-template std::string EditNames::listed(const std::map<std::string, LightId>& names);
-template std::string EditNames::listed(const std::map<std::string, MaterialId>& names);
 
 }  // namespace chiaro

@@ -36,14 +36,26 @@ public:
     void add(const std::string& name, NamedThings things);
     void add_material(const std::string& name, MaterialId id) { materials_.emplace(name, id); }
 
-    std::string object_names() const { return listed(objects_); }
-    std::string light_names() const { return listed(lights_); }
-    std::string material_names() const { return listed(materials_); }
+    /// "there are A, B", as the remedy of a message.
+    std::string object_names() const { return listed(names_of(objects_)); }
+    std::string material_names() const { return listed(names_of(materials_)); }
+    /// Of lights, and of the objects that `shines(ObjectId)` says to be some.
+    template <typename Shines>
+    std::string light_names(const Shines& shines) const {
+        std::vector<std::string> names = names_of(lights_);
+        for (const auto& [name, id] : objects_)
+            if (shines(id)) names.push_back(name);
+        return listed(names);
+    }
 
 private:
-    // "there are A, B", as the remedy of a message.
     template <typename Id>
-    static std::string listed(const std::map<std::string, Id>& names);
+    static std::vector<std::string> names_of(const std::map<std::string, Id>& ids) {
+        std::vector<std::string> names;
+        for (const auto& [name, id] : ids) names.push_back(name);
+        return names;
+    }
+    static std::string listed(std::span<const std::string> names);
     NamedThings below(const std::string& name, ObjectId object) const;
 
     const std::vector<SceneNode>& nodes_;

@@ -8,6 +8,11 @@
 
 namespace chiaro {
 
+/// A colour, not black, made as bright as white.
+inline Rgb of_luminance_1(Rgb color) {
+    return color / luminance(color);
+}
+
 /// Sums over the emitting primitives of objects (world space).
 struct LampShape {
     glm::dvec3 vector_area = glm::dvec3(0);  // area times front normal

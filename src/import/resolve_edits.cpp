@@ -106,7 +106,7 @@ std::vector<Edit> EditResolver::operator()(const Remove& edit) {
     things.lights.insert(things.lights.end(), lights.begin(), lights.end());
     if (things.empty())
         throw Error(at("remove"), "there is no object or light " + quoted(edit.name),
-                    "of objects " + names_.object_names() + "; of lights " + names_.light_names());
+                    "of objects " + names_.object_names() + "; of lights " + light_names());
     std::vector<Edit> edits;
     for (const ObjectId id : things.objects) edits.emplace_back(SetShown{id, false});
     for (const LightId id : things.lights) {

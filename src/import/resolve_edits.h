@@ -59,6 +59,8 @@ private:
 
     // `beside`: where the light is from the centre of those that are edited together.
     Edit changed_lamp(LightId id, const ChangeLight& edit, Vec3 beside);
+    bool shines(ObjectId id) const { return shape_of({{id}, {}}).shines(); }
+    std::string light_names() const;
     LampShape shape_of(const NamedThings& things) const;
     std::vector<Edit> changed_area_light(const NamedThings& things, const ChangeLight& edit);
     void place_area_light(const NamedThings& things, const ChangeLight& edit,

@@ -209,11 +209,11 @@ TEST(ResolveEdits, WhatIsNotThereIsNamedWithWhatIs) {
               "e.json: edits[0].object: there is no object \"Vase\"; there are Chair/back, "
               "Chair/seat, Floor, Panel");
     EXPECT_EQ(stage.fault(R"({"light": "Vase", "on": true})"),
-              "e.json: edits[0].light: there is no light \"Vase\"; besides objects that shine "
-              "there are Bulb, Spot, Sun");
+              "e.json: edits[0].light: there is no light \"Vase\"; there are Bulb, Spot, "
+              "Sun, Panel");
     EXPECT_EQ(stage.fault(R"({"light": "Floor", "on": true})"),
-              "e.json: edits[0].light: the object \"Floor\" does not shine; besides objects that "
-              "shine there are Bulb, Spot, Sun");
+              "e.json: edits[0].light: the object \"Floor\" does not shine; there are Bulb, Spot, "
+              "Sun, Panel");
     EXPECT_EQ(stage.fault(R"({"material": "Wood"})"),
               "e.json: edits[0].material: there is no material \"Wood\"; there are material0, "
               "material1");
