@@ -2,6 +2,7 @@
 
 #include "import/resolve_edits.h"
 
+#include "base/random.h"
 #include "import/import_testing.h"
 #include "sample_renderer/tiny_scenes.h"
 #include "scene/area_lights.h"
@@ -246,6 +247,41 @@ TEST(ResolveEdits, WhatNoSceneMayHaveIsRefused) {
               "e.json: edits[0].light: is brighter than 1e15");
     EXPECT_EQ(stage.fault(R"({"camera": {"eye": [0, 1, 0]}})"),
               "e.json: edits[0].camera: its target is where its eye is; move one of them");
+}
+
+// Whatever the numbers, an edit is refused or leaves a scene that keeps its promises.
+TEST(ResolveEdits, ExtremeNumbersAreRefusedOrFine) {
+    constexpr const char* kNumbers[] = {"0",   "1",   "-1",  "1e-9", "-1e-6", "1e-6", "30",
+                                        "0.5", "1e6", "1e9", "-1e9", "1e15",  "180"};
+    constexpr const char* kEdits[] = {
+        R"({"object": "Chair", "translate": [#,#,#], "rotate": [#,#,#,#], "scale": #})",
+        R"({"light": "Panel", "position": [#,#,#], "direction": [#,#,#], "size": [#,#]})",
+        R"({"light": "Panel", "nits": #, "color": [#,#,#]})",
+        R"({"light": "Panel", "intensity_scale": #})",
+        R"({"light": "Spot", "position": [#,#,#], "direction": [#,#,#], "candela": #})",
+        R"({"light": "Bulb", "intensity_scale": #, "color": [#,#,#]})",
+        R"({"camera": {"eye": [#,#,#], "target": [#,#,#], "up": [#,#,#], "vfov": #}})",
+        R"({"material": "material1", "base_color": [#,#,#], "roughness": #, "emission_scale": #})",
+        R"({"add": {"light": "A", "type": "area", "position": [#,#,#], "direction": [#,#,#],
+            "size": [#,#], "nits": #}}, {"light": "A", "size": [#,#], "direction": [#,#,#]})",
+        R"({"add": {"object": "B", "copy": "Panel", "translate": [#,#,#], "scale": #}},
+           {"light": "B", "direction": [#,#,#], "nits": #})"};
+    Rng rng(2002);
+    const auto pick = [&](const auto& list) {
+        return std::string(list[rng.below(static_cast<std::uint32_t>(std::size(list)))]);
+    };
+    int refused = 0;
+    constexpr int kTries = 4000;
+    for (int i = 0; i < kTries; ++i) {
+        std::string edits = pick(kEdits) + "," + pick(kEdits);
+        for (std::size_t at = edits.find('#'); at != edits.npos; at = edits.find('#'))
+            edits.replace(at, 1, rng.below(2) == 0 ? "1" : pick(kNumbers));
+        Stage stage;
+        if (!stage.fault(edits).empty()) ++refused;
+        check_scene(stage.scene);
+    }
+    EXPECT_GT(refused, 0);
+    EXPECT_LT(refused, kTries);
 }
 
 // Names of nodes stand for all that hangs on them, lights too.
