@@ -10,11 +10,31 @@
 namespace chiaro {
 namespace {
 
+// What edits removed is no longer there.
+bool is_there(const Object& object) {
+    return object.shown;
+}
+bool is_there(const PunctualLight& light) {
+    return light.on;
+}
+template <typename T>
+bool is_there(const T&) {
+    return true;
+}
+
 template <typename T>
 nlohmann::ordered_json names_of(const std::vector<T>& things) {
     auto names = nlohmann::ordered_json::array();
-    for (const T& thing : things) names.push_back(thing.name);
+    for (const T& thing : things)
+        if (is_there(thing)) names.push_back(thing.name);
     return names;
+}
+
+nlohmann::ordered_json describe(const std::vector<Animation>& animations) {
+    auto list = nlohmann::ordered_json::array();
+    for (const Animation& animation : animations)
+        list.push_back({{"name", animation.name}, {"duration", animation.duration}});
+    return list;
 }
 
 nlohmann::ordered_json describe(const Environment& environment) {
@@ -31,12 +51,15 @@ nlohmann::ordered_json describe(const Environment& environment) {
 nlohmann::ordered_json describe(const Scene& scene) {
     std::size_t patches = 0, quads = 0, triangles = 0, emitters = 0;
     for (const Object& object : scene.objects) {
+        if (!object.shown) continue;
         const Mesh& mesh = scene.mesh_of(object);
         patches += mesh.bicubics.size();
         quads += mesh.quad_count - mesh.bicubics.size();
         triangles += mesh.primitives.size() - mesh.quad_count;
         for (const Primitive& p : mesh.primitives)
-            emitters += scene.material(p.material).emissive() ? 1 : 0;
+            emitters +=
+                max_component(object.emission_scale * scene.material(p.material).emission) > 0 ? 1
+                                                                                               : 0;
     }
     const Box box = bounds(scene);
     nlohmann::ordered_json j;
@@ -56,6 +79,7 @@ nlohmann::ordered_json describe(const Scene& scene) {
     j["materials"] = names_of(scene.materials);
     j["textures"] = names_of(scene.textures);
     j["cameras"] = names_of(scene.cameras);
+    j["animations"] = describe(scene.animations);
     j["environment"] = describe(scene.environment);
     j["warnings"] = scene.warnings;
     return j;
@@ -72,7 +96,9 @@ void print_list(const nlohmann::ordered_json& j, const char* what) {
 }  // namespace
 
 int info_command(const Options& options) {
-    const nlohmann::ordered_json j = describe(open_scene(options));
+    Scene scene = open_scene(options);
+    apply_edits(scene, options);
+    const nlohmann::ordered_json j = describe(scene);
     if (options.json) {
         // Names come from files: whatever is no UTF-8 in them is replaced, not an error.
         std::printf("%s\n",
@@ -86,6 +112,8 @@ int info_command(const Options& options) {
     if (!j["bounds"].is_null()) std::printf("bounds     %s\n", j["bounds"].dump().c_str());
     for (const char* list : {"objects", "lights", "materials", "textures", "cameras"})
         print_list(j, list);
+    for (const Animation& a : scene.animations)
+        std::printf("animation  %s, %g s\n", printable(a.name).c_str(), double(a.duration));
     if (const auto& e = j["environment"]; !e.is_null())
         std::printf("environment %s, %s cd/m2 in the mean\n",
                     e["map"].is_null() ? "even" : ("map " + e["map"].dump()).c_str(),

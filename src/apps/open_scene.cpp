@@ -5,7 +5,9 @@
 #include "import/directions.h"
 #include "import/finish_scene.h"
 #include "import/load_environment.h"
+#include "import/resolve_edits.h"
 #include "scene/built_in.h"
+#include "scene/path_animation.h"
 
 #include <algorithm>
 
@@ -54,11 +56,13 @@ Scene open_scene(const Options& options) {
     Environment environment = choose_environment(options);
     Scene scene;
     if (options.scene.starts_with(kBuiltIn)) {
-        auto built_in = built_in_scene(options.scene.substr(kBuiltIn.size()));
+        const std::string name = options.scene.substr(kBuiltIn.size());
+        auto built_in = built_in_scene(name);
         if (!built_in)
             throw Error(options.scene, "there is no such built-in scene",
                         "there are " + join(built_in_names()));
         scene = std::move(*built_in);
+        if (const auto paths = built_in_paths(name)) add_path_animation(scene, *paths);
         finish_scene(scene, load, options.scene);
     } else {
         scene = load_scene(options.scene, load);
@@ -92,6 +96,18 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     if (!(glm::length(glm::cross(forward, camera.up)) > 1e-6f * glm::length(forward)))
         throw Error("--up", "it points along the line of sight", "give --eye and another vertical");
     return camera;
+}
+
+void apply_edits(Scene& scene, Camera& camera, const Options& options) {
+    if (options.edits.empty()) return;
+    for (const Edit& edit : resolve_edits(read_edits(options.edits), scene, camera))
+        apply(scene, camera, edit);
+}
+
+void apply_edits(Scene& scene, const Options& options) {
+    Camera camera =
+        scene.cameras.empty() ? frame_from_inside(bounds(scene), scene.up) : scene.cameras.front();
+    apply_edits(scene, camera, options);
 }
 
 void add_headlamp_if_dark(Scene& scene, const Camera& camera) {

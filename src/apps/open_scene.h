@@ -14,6 +14,12 @@ Scene open_scene(const Options& options);
 /// scene's first, else one from inside its bounds. Further options change it.
 Camera choose_camera(const Scene& scene, const Options& options);
 
+/// Makes all edits of the script that the options name, in the order of their times, before
+/// anything looks at the scene. `camera` is the one that they change.
+void apply_edits(Scene& scene, Camera& camera, const Options& options);
+/// For commands that look through none.
+void apply_edits(Scene& scene, const Options& options);
+
 /// Gives a scene without lights a lamp at the eye, with a warning.
 void add_headlamp_if_dark(Scene& scene, const Camera& camera);
 

@@ -143,6 +143,8 @@ void add_scene_options(CLI::App& command, Options& o) {
     command.add_option("--environment", o.environment,
                        "light from all around: an equirectangular .hdr or .exr picture in cd/m2");
     command.add_option("--sky", o.sky, "the same light from everywhere, as 1,1,1 [cd/m2]");
+    command.add_option("--edits", o.edits,
+                       "a script of edits (JSON), all of which are made at the start");
 }
 
 void add_view_options(CLI::App& command, Options& o) {

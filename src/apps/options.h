@@ -32,6 +32,7 @@ struct Options {
     bool subdivide = false;
     float curve_error = kCurveTolerance;
     std::string environment, sky;
+    std::string edits;
 
     std::optional<double> time;            // seconds after loading
     std::optional<std::uint64_t> samples;  // points shaded

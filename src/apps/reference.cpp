@@ -22,8 +22,9 @@ int reference_command(const Options& options) {
     check_time(options);
     const int threads = thread_count(options);
     const PictureSize size = parse_size(options.size);
-    const Scene scene = open_scene(options);
-    const Camera camera = choose_camera(scene, options);
+    Scene scene = open_scene(options);
+    Camera camera = choose_camera(scene, options);
+    apply_edits(scene, camera, options);
 
     RayCaster rays(scene, threads, curve_tolerance(options));
     const View view(camera, size.width, size.height);

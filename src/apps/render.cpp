@@ -80,7 +80,8 @@ int render_command(const Options& options) {
                                                                           : RendererName::gather);
     const PictureSize size = parse_size(options.size);
     Scene scene = open_scene(options);
-    const Camera camera = choose_camera(scene, options);
+    Camera camera = choose_camera(scene, options);
+    apply_edits(scene, camera, options);
     add_headlamp_if_dark(scene, camera);
 
     RayCaster rays(scene, settings.threads, curve_tolerance(options));

@@ -171,7 +171,8 @@ int trace_command(const Options& options) {
     if (options.lux && !options.irradiance)
         throw Error("--lux", "radiance is not measured in lux", "add -I");
     const Effort effort = effort_of(options);
-    const Scene scene = open_scene(options);
+    Scene scene = open_scene(options);
+    apply_edits(scene, options);
     const RayCaster rays(scene, effort.threads, curve_tolerance(options));
     const AreaLights area_lights(scene);
     const LitScene lit = make_lit_scene(scene, rays, area_lights);

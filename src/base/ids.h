@@ -10,6 +10,8 @@ enum class ObjectId : std::uint32_t { none = 0xffff'ffff };
 enum class MeshId : std::uint32_t { none = 0xffff'ffff };
 enum class MaterialId : std::uint32_t { none = 0xffff'ffff };
 enum class TextureId : std::uint32_t { none = 0xffff'ffff };
+enum class CameraId : std::uint32_t { none = 0xffff'ffff };
+enum class NodeId : std::uint32_t { none = 0xffff'ffff };
 enum class LightId : std::uint32_t { none = 0xffff'ffff };
 
 /// The position in its array that a typed index names.

@@ -30,6 +30,7 @@ void scale_lengths(Scene& scene, float scale) {
     if (scale == 1.0f) return;
     const Mat4 scaling = glm::scale(Mat4(1), Vec3(scale));
     for (Object& object : scene.objects) object.to_world = scaling * object.to_world;
+    scene.nodes_to_world = scaling * scene.nodes_to_world;
     for (PunctualLight& light : scene.lights) {
         light.position *= scale;
         light.range *= scale;
@@ -48,27 +49,25 @@ void order_all_primitives(Scene& scene, const std::string& where) {
             fmt::format("{}: {} polygons without area were left out", where, dropped));
 }
 
-// Whether the object is flattened so much that the way back throws rays from within kFarthest to
-// where Embree takes none.
-bool singular(const Mat4& to_world) {
-    constexpr double kMost = 1e8;
-    const glm::dmat3 back = glm::inverse(glm::dmat3(to_world));
-    for (int i = 0; i < 3; ++i)
-        if (!(glm::all(glm::lessThanEqual(glm::abs(back[i]), glm::dvec3(kMost))))) return true;
-    return false;
-}
-
 // Takes out objects that show nothing, so that everything in `objects` has a surface.
 void drop_empty_objects(Scene& scene, const std::string& where) {
-    std::erase_if(scene.objects, [&](const Object& object) {
+    std::vector<ObjectId> moved(scene.objects.size(), ObjectId::none);
+    std::vector<Object> kept;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
         const bool empty = scene.mesh_of(object).primitives.empty();
-        const bool flat = !empty && singular(object.to_world);
+        const bool flat = !empty && scaled_to_nothing(object.to_world);
         if (empty || flat)
             scene.warnings.push_back(
                 fmt::format("{}: object \"{}\" {} and was left out", where, printable(object.name),
                             empty ? "has no surface" : "is scaled to nothing"));
-        return empty || flat;
-    });
+        if (empty || flat) continue;
+        moved[i] = static_cast<ObjectId>(kept.size());
+        kept.push_back(object);
+    }
+    scene.objects = std::move(kept);
+    for (SceneNode& node : scene.nodes)
+        if (node.object != ObjectId::none) node.object = moved[index_of(node.object)];
 }
 
 void drop_unused_meshes(Scene& scene) {
@@ -138,6 +137,14 @@ void check_brightness(const Scene& scene, const std::string& where) {
 }
 
 }  // namespace
+
+bool scaled_to_nothing(const Mat4& to_world) {
+    constexpr double kMost = 1e8;
+    const glm::dmat3 back = glm::inverse(glm::dmat3(to_world));
+    for (int i = 0; i < 3; ++i)
+        if (!(glm::all(glm::lessThanEqual(glm::abs(back[i]), glm::dvec3(kMost))))) return true;
+    return false;
+}
 
 std::vector<bool> drop_unseen(Scene& scene, const std::string& where) {
     order_all_primitives(scene, where);

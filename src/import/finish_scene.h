@@ -8,6 +8,10 @@
 
 namespace chiaro {
 
+/// Whether an object is flattened so much that the way back throws rays from within kFarthest to
+/// where Embree takes none.
+bool scaled_to_nothing(const Mat4& to_world);
+
 /// Orders primitives and leaves out what shows nothing: polygons without area, objects without
 /// surface or scaled to nothing, meshes without objects. Returns which materials are then in use,
 /// by id: a reader gives textures to no others.

@@ -5,6 +5,7 @@
 #include "import/glb.h"
 #include "import/gltf_accessor.h"
 #include "import/gltf_check.h"
+#include "import/json_place.h"
 
 #include <fmt/format.h>
 
@@ -17,22 +18,6 @@ using Json = nlohmann::json;
 
 GltfBytes as_bytes(std::string_view text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
-Json parse_json(std::string_view text, const std::string& where) {
-    if (text.starts_with("\xef\xbb\xbf"))
-        throw Error(where, "JSON: the file begins with a byte order mark",
-                    "save it as UTF-8 without one");
-    check_json_depth(text, where);
-    try {
-        return Json::parse(text);
-    } catch (const Json::exception& fault) {
-        // What follows "[json.exception.parse_error.101] ".
-        const std::string_view what = fault.what();
-        const std::size_t start = what.find("] ");
-        throw Error(where,
-                    "JSON: " + printable(start == what.npos ? what : what.substr(start + 2)));
-    }
 }
 
 bool known_component(int type) {
@@ -72,7 +57,7 @@ GltfDocument::GltfDocument(const SceneFile& file, bool binary)
     Json root = parse_json(chunks.json, where_);
     check_gltf(root, where_);
     has_skins = root.contains("skins");
-    has_animations = root.contains("animations");
+    if (root.contains("animations")) animations_ = root["animations"];
     load_buffers(root, chunks.binary);
     note_images(root);
     read_model(std::move(root));

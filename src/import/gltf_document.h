@@ -58,8 +58,10 @@ public:
     /// Whether the accessor's type and component type are any that glTF knows.
     bool accessor_known(std::size_t accessor) const { return accessor_known_[accessor]; }
 
+    /// The file's list of animations, which has passed check_gltf().
+    const nlohmann::json& animations() const { return animations_; }
+
     bool has_skins = false;
-    bool has_animations = false;
 
 private:
     void load_buffers(const nlohmann::json& root, std::optional<std::string_view> binary);
@@ -73,6 +75,7 @@ private:
     std::vector<GltfBuffer> buffers_;
     std::vector<GltfImage> images_;
     std::vector<bool> accessor_known_;
+    nlohmann::json animations_ = nlohmann::json::array();
     std::deque<std::string> storage_;           // decoded data URIs
     std::map<std::string, std::string> files_;  // by name, read once each
 };

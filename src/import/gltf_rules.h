@@ -179,6 +179,7 @@ inline constexpr GltfRule kGltfRules[] = {
     {"skins/*/skeleton", JsonKind::index, false, 0, 0, "nodes"},
     {"skins/*/inverseBindMatrices", JsonKind::index, false, 0, 0, "accessors"},
     {"animations", JsonKind::array},
+    {"animations/*/name", JsonKind::string},
     {"animations/*/channels", JsonKind::array, true, 1},
     {"animations/*/channels/*/sampler", JsonKind::integer, true, 0, kMostInt},
     {"animations/*/channels/*/target", JsonKind::object, true},
@@ -187,6 +188,7 @@ inline constexpr GltfRule kGltfRules[] = {
     {"animations/*/samplers", JsonKind::array, true, 1},
     {"animations/*/samplers/*/input", JsonKind::index, true, 0, 0, "accessors"},
     {"animations/*/samplers/*/output", JsonKind::index, true, 0, 0, "accessors"},
+    {"animations/*/samplers/*/interpolation", JsonKind::string},
 
     {"extensions/KHR_lights_punctual", JsonKind::object},
     {"extensions/KHR_lights_punctual/lights", JsonKind::array, true},

@@ -1,6 +1,7 @@
 #include "import/json_place.h"
 
 #include "import/fault.h"
+#include "import/glb.h"
 
 #include <fmt/format.h>
 
@@ -39,6 +40,22 @@ struct Walk {
 };
 
 }  // namespace
+
+Json parse_json(std::string_view text, const std::string& where) {
+    if (text.starts_with("\xef\xbb\xbf"))
+        throw Error(where, "JSON: the file begins with a byte order mark",
+                    "save it as UTF-8 without one");
+    check_json_depth(text, where);
+    try {
+        return Json::parse(text);
+    } catch (const Json::exception& fault) {
+        // What follows "[json.exception.parse_error.101] ".
+        const std::string_view what = fault.what();
+        const std::size_t start = what.find("] ");
+        throw Error(where,
+                    "JSON: " + printable(start == what.npos ? what : what.substr(start + 2)));
+    }
+}
 
 std::string JsonPlace::path() const {
     if (parent == nullptr) return "";

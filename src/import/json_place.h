@@ -11,6 +11,10 @@
 
 namespace chiaro {
 
+/// The document that `text` is. Throws an Error at `where` if it is none, nests deeper than
+/// kMaxJsonDepth or begins with a byte order mark.
+nlohmann::json parse_json(std::string_view text, const std::string& where);
+
 /// A step of the way from the root of a document to a value; the whole way is spelled out only when
 /// a message needs it. Lives on the stack of the walk.
 struct JsonPlace {

@@ -2,19 +2,20 @@
 
 #include "import/fault.h"
 #include "import/finish_scene.h"
+#include "import/gltf_animation.h"
 #include "import/gltf_check.h"
 #include "import/gltf_document.h"
 #include "import/gltf_material.h"
 #include "import/gltf_mesh.h"
 #include "import/unique_names.h"
+#include "scene/animate.h"
 
 #include <fmt/format.h>
-
-#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <variant>
 
 namespace chiaro {
 namespace {
@@ -27,7 +28,7 @@ glm::dvec3 to_vec3(const std::vector<double>& numbers, glm::dvec3 fallback) {
 }
 
 // The node's own transform, from its matrix or its translation, rotation and scale.
-dmat4 local_transform(const tinygltf::Node& node, const std::string& where) {
+std::variant<Pose, dmat4> local_transform(const tinygltf::Node& node, const std::string& where) {
     if (node.matrix.size() == 16) {
         dmat4 matrix;
         for (int i = 0; i < 16; ++i)
@@ -41,17 +42,19 @@ dmat4 local_transform(const tinygltf::Node& node, const std::string& where) {
         }
         return matrix;
     }
-    const dvec3 translation = to_vec3(node.translation, dvec3(0));
-    const dvec3 scale = to_vec3(node.scale, dvec3(1));
-    glm::dquat rotation(1, 0, 0, 0);
+    Pose pose;
+    pose.translation = to_vec3(node.translation, dvec3(0));
+    pose.scale = to_vec3(node.scale, dvec3(1));
     if (node.rotation.size() == 4)
-        rotation =
+        pose.rotation =
             glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    if (!(glm::length(rotation) > 0)) throw Error(where + ".rotation", "has no direction");
-    dmat4 transform = glm::mat4_cast(glm::normalize(rotation));
-    for (int axis = 0; axis < 3; ++axis) transform[axis] *= scale[axis];
-    transform[3] = glm::dvec4(translation, 1);
-    return transform;
+    if (!(glm::length(pose.rotation) > 0)) throw Error(where + ".rotation", "has no direction");
+    return pose;
+}
+
+dmat4 matrix_of(const std::variant<Pose, dmat4>& local) {
+    const Pose* pose = std::get_if<Pose>(&local);
+    return pose != nullptr ? matrix_of(*pose) : std::get<dmat4>(local);
 }
 
 Mat4 to_float(const dmat4& transform, const std::string& where) {
@@ -70,6 +73,7 @@ public:
 
     Scene build(const std::string& where) {
         walk(root_nodes());
+        read_animations(document_, node_ids_, scene_);
         materials_.read(drop_unseen(scene_, where));
         add_warnings();
         return std::move(scene_);
@@ -95,22 +99,28 @@ private:
     void walk(const std::vector<int>& roots) {
         struct Open {
             int node;
+            NodeId parent;
             dmat4 to_world;  // of the parent
         };
         std::vector<Open> open;
-        const auto push = [&](const std::vector<int>& nodes, const dmat4& to_world) {
+        const auto push = [&](const std::vector<int>& nodes, NodeId parent, const dmat4& to_world) {
             for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-                open.push_back({*node, to_world});
+                open.push_back({*node, parent, to_world});
         };
-        push(roots, dmat4(1));
+        push(roots, NodeId::none, dmat4(1));
+        node_ids_.assign(model_.nodes.size(), NodeId::none);
         while (!open.empty()) {
             const Open next = open.back();
             open.pop_back();
             const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(next.node)];
             const std::string where = document_.where(fmt::format("nodes[{}]", next.node));
-            const dmat4 to_world = next.to_world * local_transform(node, where);
+            const auto local = local_transform(node, where);
+            const dmat4 to_world = next.to_world * matrix_of(local);
+            const auto id = static_cast<NodeId>(scene_.nodes.size());
+            node_ids_[static_cast<std::size_t>(next.node)] = id;
+            scene_.nodes.push_back({node.name, next.parent, local});
             add_node(node, to_float(to_world, where), where);
-            push(node.children, to_world);
+            push(node.children, id, to_world);
         }
     }
 
@@ -128,29 +138,25 @@ private:
             meshes_.try_emplace(mesh, static_cast<MeshId>(scene_.meshes.size()));
         if (fresh) scene_.meshes.push_back(read_mesh(document_, mesh, materials_, counts_));
         const std::string& wanted = node.name.empty() ? model_.meshes[mesh].name : node.name;
+        scene_.nodes.back().object = static_cast<ObjectId>(scene_.objects.size());
         scene_.objects.push_back({object_name_(wanted, "object"), known->second, to_world});
     }
 
     // A camera looks along its node's -z, with +y upwards.
     void add_camera(const tinygltf::Node& node, const Mat4& to_world, const std::string& where) {
         const tinygltf::Camera& source = model_.cameras[static_cast<std::size_t>(node.camera)];
-        const Vec3 forward = -Vec3(to_world[2]), up = Vec3(to_world[1]);
         if (source.type != "perspective") {
             warn(where, "its camera is not a perspective one and was left out");
             return;
         }
-        if (!(glm::length(forward) > 0) || !(glm::length(glm::cross(forward, up)) > 0)) {
+        Camera camera;
+        if (!place_camera(to_world, camera)) {
             warn(where, "its camera is scaled to nothing and was left out");
             return;
         }
-        Camera camera;
         camera.name = camera_name_(node.name.empty() ? source.name : node.name, "camera");
-        camera.eye = Vec3(to_world[3]);
-        // Far from the origin a unit is lost in rounding.
-        const float distance = std::max(1.0f, 1e-3f * glm::length(camera.eye));
-        camera.target = camera.eye + distance * glm::normalize(forward);
-        camera.up = glm::normalize(up);
         camera.vertical_fov = static_cast<float>(glm::degrees(source.perspective.yfov));
+        scene_.nodes.back().camera = static_cast<CameraId>(scene_.cameras.size());
         scene_.cameras.push_back(std::move(camera));
     }
 
@@ -158,7 +164,6 @@ private:
     void add_light(const tinygltf::Node& node, int index, const Mat4& to_world,
                    const std::string& where) {
         const tinygltf::Light& source = model_.lights[static_cast<std::size_t>(index)];
-        const Vec3 direction = -Vec3(to_world[2]);
         PunctualLight light;
         if (source.type == "point") {
             light.kind = LightKind::point;
@@ -172,16 +177,15 @@ private:
                                     printable(source.type)));
             return;
         }
-        if (light.kind != LightKind::point && !(glm::length(direction) > 0)) {
+        if (!place_light(to_world, light)) {
             warn(where, "its light is scaled to nothing and was left out");
             return;
         }
-        if (light.kind != LightKind::point) light.direction = glm::normalize(direction);
         light.name = light_name_(node.name.empty() ? source.name : node.name, "light");
-        light.position = Vec3(to_world[3]);
         light.intensity = Rgb(static_cast<float>(source.intensity));
         light.intensity *= Rgb(to_vec3(source.color, dvec3(1)));
         if (source.range > 0) light.range = static_cast<float>(source.range);
+        scene_.nodes.back().light = static_cast<LightId>(scene_.lights.size());
         scene_.lights.push_back(std::move(light));
     }
 
@@ -196,8 +200,6 @@ private:
     }
 
     void add_warnings() {
-        if (document_.has_animations)
-            warn(document_.where("animations"), "are not supported yet and were left out");
         if (document_.has_skins)
             warn(document_.where("skins"), "are not supported; meshes stand as they are bound");
         if (counts_.has_morph_targets)
@@ -220,6 +222,7 @@ private:
     GltfMaterials materials_;
     GltfMeshCounts counts_;
     std::map<std::size_t, MeshId> meshes_;
+    std::vector<NodeId> node_ids_;  // by those of the file
     UniqueNames object_name_, camera_name_, light_name_;
 };
 

@@ -90,6 +90,23 @@ void check_environment(const Environment& environment) {
           "scene: the environment is not finite or negative");
 }
 
+void check_nodes(const Scene& scene) {
+    const auto in_range = [](auto id, std::size_t size) {
+        return id == decltype(id)::none || index_of(id) < size;
+    };
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const SceneNode& node = scene.nodes[i];
+        check(in_range(node.parent, i), "scene: a node comes before its parent");
+        check(in_range(node.object, scene.objects.size()) &&
+                  in_range(node.light, scene.lights.size()) &&
+                  in_range(node.camera, scene.cameras.size()),
+              "scene: what hangs on a node is out of range");
+    }
+    for (const Animation& animation : scene.animations)
+        for (const AnimationChannel& channel : animation.channels)
+            check(index_of(channel.node) < scene.nodes.size(), "scene: animated node out of range");
+}
+
 // By material. A black texture makes an emissive one dark.
 std::vector<Rgb> emissions(const Scene& scene) {
     std::vector<Rgb> result;
@@ -220,6 +237,7 @@ void check_scene(const Scene& scene) {
     for (const Texture& texture : scene.textures) check_texture(texture);
     for (const Camera& camera : scene.cameras) check_camera(camera);
     for (const PunctualLight& light : scene.lights) check_light(light);
+    check_nodes(scene);
     check_environment(scene.environment);
     check(is_finite(scene.up) && scene.up != Vec3(0), "scene: up is not a direction");
 }

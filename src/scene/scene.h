@@ -3,6 +3,7 @@
 
 #include "base/ids.h"
 #include "base/vec.h"
+#include "scene/animation.h"
 #include "scene/bicubic.h"
 #include "scene/camera.h"
 #include "scene/environment.h"
@@ -63,6 +64,9 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<PunctualLight> lights;
     std::vector<Camera> cameras;
+    std::vector<SceneNode> nodes;   // the file's hierarchy, parents first; may be empty
+    Mat4 nodes_to_world = Mat4(1);  // where nodes without parent stand
+    std::vector<Animation> animations;
     Environment environment;
     Vec3 up = Vec3(0, 1, 0);  // the world's vertical: of cameras that we choose, of the environment
     std::vector<std::string> warnings;  // what the importer met and went on from, a line each

@@ -33,6 +33,11 @@ std::string rich_gltf() {
     maker.root["nodes"].push_back(
         {{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     maker.root["scenes"] = {{{"nodes", {0}}}};
+    const auto times = maker.add_accessor(std::vector<float>{0, 1}, "SCALAR", 5126, 1);
+    const auto places = maker.add_vec3({0, 0, 0, 1, 2, 3});
+    maker.root["animations"] = {
+        {{"channels", {{{"sampler", 0}, {"target", {{"path", "translation"}, {"node", 1}}}}}},
+         {"samplers", {{{"input", times}, {"output", places}, {"interpolation", "LINEAR"}}}}}};
     return maker.text();
 }
 

@@ -365,7 +365,7 @@ TEST(ReadGltf, WhatIsLeftOutIsSaidOnce) {
     maker.root["skins"] = {{{"joints", {1}}}, {{"joints", {1}}}};
     maker.root["animations"] = {
         {{"samplers", {{{"input", 0}, {"output", 0}}}},
-         {"channels", {{{"sampler", 0}, {"target", {{"path", "scale"}}}}}}}};
+         {"channels", {{{"sampler", 0}, {"target", {{"path", "weights"}}}}}}}};
     maker.primitive()["targets"] = {{{"POSITION", 0}}};
     maker.root["extensionsUsed"] = {"KHR_materials_sheen", "EXT_x\ny"};
     const Scene scene = TempFolder().load("a.gltf", maker.text());

@@ -41,5 +41,18 @@ TEST(OpenSides, UnmarkedPrimitivesFollowTheirObject) {
     EXPECT_FALSE(sides.is_inside(ObjectId(0), 5, false));
 }
 
+// What was marked stays so when the scene grows.
+TEST(OpenSides, ObjectsMayBeAdded) {
+    Scene scene = two_boxes();
+    OpenSides sides(scene);
+    sides.mark(ObjectId(0), 2, true);
+    scene.objects.push_back(scene.objects[0]);
+    sides.add_objects(scene);
+    EXPECT_TRUE(sides.is_inside(ObjectId(0), 2, false));
+    EXPECT_FALSE(sides.is_inside(ObjectId(2), 2, false));
+    sides.mark(ObjectId(2), 2, true);
+    EXPECT_TRUE(sides.is_inside(ObjectId(2), 2, false));
+}
+
 }  // namespace
 }  // namespace chiaro
