@@ -26,7 +26,7 @@ constexpr float kBarLength = 4.6f;
 
 // An 800 lm bulb above each third of a table and over the bar.
 constexpr float kTableBulb = 800 / (4 * kPi);  // cd
-constexpr float kBarBulb = 450 / (4 * kPi);
+constexpr float kBarBulb = 700 / (4 * kPi);
 constexpr Rgb kWarmWhite = {1.13f, 0.985f, 0.75f};  // of luminance 1
 
 Mat4 wall_frame(int wall) {
@@ -213,9 +213,9 @@ Scene make_poolhall() {
     add_bar(hall, palette);
     hang_on_walls(hall, palette);
     scene.cameras = {{.name = "main",
-                      .eye = {4.5f, 1.62f, 7.4f},
-                      .target = {5.8f, 0.78f, 4.4f},
-                      .vertical_fov = 55},
+                      .eye = {6.1f, 1.27f, 6.8f},
+                      .target = {5.36f, 0.89f, 4.7f},
+                      .vertical_fov = 52},
                      {.name = "balls",
                       .eye = {5.15f, 1.08f, 6.0f},
                       .target = {5.5f, 0.77f, 5.1f},

@@ -51,11 +51,11 @@ HallPalette make_hall_palette(Scene& scene) {
     hall.inlay = matte(scene, "Mother of pearl", {0.75f, 0.73f, 0.66f});
     hall.metal = glossy(scene, "Polished brass", {0.78f, 0.56f, 0.24f}, 0.25f, 1);
     hall.casting = glossy(scene, "Bronze", {0.34f, 0.25f, 0.15f}, 0.45f, 1);
-    hall.paint = matte(scene, "Ochre paint", {0.72f, 0.58f, 0.40f});
-    hall.ceiling = matte(scene, "Smoked ceiling", {0.74f, 0.69f, 0.58f});
+    hall.paint = matte(scene, "Ochre paint", {0.55f, 0.4f, 0.25f});
+    hall.ceiling = matte(scene, "Smoked ceiling", {0.6f, 0.5f, 0.36f});
     hall.enamel = glossy(scene, "Green enamel", {0.015f, 0.12f, 0.07f}, 0.2f);
     hall.enamel_inside = matte(scene, "White enamel", {0.6f, 0.585f, 0.54f});
-    hall.seat = matte(scene, "Oxblood leather", {0.15f, 0.022f, 0.018f});
+    hall.seat = matte(scene, "Oxblood leather", {0.1f, 0.014f, 0.012f});
     hall.cue_shaft = matte(scene, "Maple", {0.66f, 0.50f, 0.30f});
     hall.label = matte(scene, "Chalk paper", {0.03f, 0.06f, 0.16f});
     hall.chalk = matte(scene, "Chalk", {0.08f, 0.25f, 0.45f});
