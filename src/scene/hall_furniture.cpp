@@ -27,8 +27,8 @@ Mesh pendant(const HallPalette& palette, float drop) {
     // dark; through the open top some light goes to the ceiling.
     const Vec2 outside[] = {
         {0.23f, -0.07f}, {0.205f, 0}, {0.155f, 0.065f}, {0.1f, 0.108f}, {0.055f, 0.128f}};
-    const Vec2 inside[] = {{0.055f, 0.128f}, {0.096f, 0.104f}, {0.15f, 0.062f},
-                           {0.2f, -0.002f}, {0.23f, -0.07f}};
+    const Vec2 inside[] = {
+        {0.055f, 0.128f}, {0.096f, 0.104f}, {0.15f, 0.062f}, {0.2f, -0.002f}, {0.23f, -0.07f}};
     const Vec2 neck[] = {{0.024f, 0.09f}, {0.024f, 0.15f}, {0.012f, 0.18f}, {0.004f, 0.24f}};
     const Vec2 rose[] = {{0.006f, drop - 0.04f}, {0.05f, drop - 0.02f}, {0.055f, drop}};
     Mesh mesh;
