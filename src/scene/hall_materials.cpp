@@ -44,13 +44,13 @@ HallPalette make_hall_palette(Scene& scene) {
     const TextureId planks = scene.material(hall.room.floor).base_color_texture.texture;
     hall.cloth = textured(scene, "Cloth", add_texture(scene, cloth_texture()), 0.25f);
     hall.rail = varnished(scene, "Mahogany", add_texture(scene, mahogany_texture()),
-                          {0.12f, 0.036f, 0.019f}, 0.22f);
+                          {0.12f, 0.036f, 0.019f}, 0.45f);
     hall.panel = textured(scene, "Dark oak", grain, kGrainTile, {0.2f, 0.12f, 0.07f});
     hall.floor = textured(scene, "Stained boards", planks, kPlankTile, {0.2f, 0.135f, 0.1f});
     hall.leather = matte(scene, "Black leather", Rgb(0.025f));
     hall.inlay = matte(scene, "Mother of pearl", {0.75f, 0.73f, 0.66f});
     hall.metal = glossy(scene, "Polished brass", {0.78f, 0.56f, 0.24f}, 0.25f, 1);
-    hall.casting = glossy(scene, "Bronze", {0.3f, 0.22f, 0.13f}, 0.25f, 1);
+    hall.casting = glossy(scene, "Bronze", {0.3f, 0.22f, 0.13f}, 0.5f, 1);
     hall.paint = matte(scene, "Ochre paint", {0.55f, 0.4f, 0.25f});
     hall.ceiling = matte(scene, "Smoked ceiling", {0.6f, 0.5f, 0.36f});
     hall.enamel = glossy(scene, "Green enamel", {0.015f, 0.12f, 0.07f}, 0.2f);

@@ -22,7 +22,7 @@ TEST(OpenSidesSeen, PolishDoesNotSeeTheOutsideFromWithinASolid) {
         add(mesh, curved_sphere(1), glaze);
         add_object(scene, std::move(mesh), moved({x, 0, 0}));
     }
-    Looking l(std::move(scene), 120, 120);
+    Looking l(std::move(scene), 200, 200, {0, 0, 1.5f});
     const RayCaster coarse(l.scene, 1, 0.01f);
     OpenSides open(l.scene);
     make_id_map(l.cache, coarse, l.view, {}, &open);
