@@ -133,6 +133,15 @@ IdMap put_on_roots(ShadingCache& cache, const std::vector<SeenRow>& rows, const 
     return map;
 }
 
+// What polish shows proves nothing: its rays leave in all directions from just above a surface, and
+// where another one rises out of it, just above may be inside of that.
+void mark_open_sides(OpenSides& open_sides, const std::vector<SeenRow>& rows) {
+    for (const SeenRow& row : rows)
+        for (const SeenPiece& piece : row.pieces)
+            if (!by_chance(piece.trail))
+                open_sides.mark(piece.point.object, piece.point.primitive, piece.front);
+}
+
 }  // namespace
 
 IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
@@ -144,10 +153,7 @@ IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
     parallel_for(settings.threads, rows.size(), [&](std::size_t y) {
         rows[y] = see_row(viewing, static_cast<int>(y), antialiased ? &centres[y] : nullptr);
     });
-    if (open_sides)
-        for (const SeenRow& row : rows)
-            for (const SeenPiece& piece : row.pieces)
-                open_sides->mark(piece.point.object, piece.point.primitive, piece.front);
+    if (open_sides) mark_open_sides(*open_sides, rows);
 
     if (antialiased) {
         std::vector<SeenRow> finer(rows.size());

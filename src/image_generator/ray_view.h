@@ -41,7 +41,7 @@ struct RayViewSettings {
 /// behind them do not show. Mirrors and glass show what is seen in them, and polish shows it by
 /// chance (specular_chains.h); what that shows of lights is left to whoever has light samples, as
 /// the map's glints. A picture of irradiance shows surfaces alone. Marks in `open_sides` what was
-/// seen, unless it is null.
+/// seen straight, in mirrors and through glass, but not by chance, unless it is null.
 IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
                   const RayViewSettings& settings, OpenSides* open_sides);
 

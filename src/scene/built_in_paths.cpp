@@ -35,7 +35,7 @@ BuiltInPaths indirect_paths() {
 BuiltInPaths poolhall_paths() {
     constexpr float kRolled = 648;  // degrees: the way over a ball's radius
     constexpr Vec3 kRollAxis(-0.928f, 0, 0.371f);
-    return {.camera = {{0, {4.5f, 1.62f, 7.4f}, {5.8f, 0.78f, 4.4f}},
+    return {.camera = {{0, {6.1f, 1.27f, 6.8f}, {5.36f, 0.89f, 4.7f}},
                        {3, {4.75f, 1.2f, 6.1f}, {5.5f, 0.79f, 5.1f}},
                        {5.5f, {4.5f, 1.1f, 5}, {5.48f, 0.79f, 5.03f}},
                        {8, {5.15f, 1.08f, 4}, {5.48f, 0.79f, 5}},

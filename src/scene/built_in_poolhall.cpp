@@ -26,7 +26,7 @@ constexpr float kBarLength = 4.6f;
 
 // An 800 lm bulb above each third of a table and over the bar.
 constexpr float kTableBulb = 800 / (4 * kPi);  // cd
-constexpr float kBarBulb = 800 / (4 * kPi);
+constexpr float kBarBulb = 700 / (4 * kPi);
 constexpr Rgb kWarmWhite = {1.13f, 0.985f, 0.75f};  // of luminance 1
 
 Mat4 wall_frame(int wall) {
@@ -72,7 +72,7 @@ void add_shell(Decorator& hall, const HallPalette& palette) {
 
 // A lamp is a shade and the bulb inside.
 void add_lamps(Decorator& hall, Scene& scene, const HallPalette& palette) {
-    constexpr float kBulbHeight = 1.95f;
+    constexpr float kBulbHeight = 1.8f;
     constexpr float kApart = 0.85f;
     const MeshId over_table = hall.mesh("Table lamp", pendant(palette, kHeight - kBulbHeight));
     const auto add_lamp = [&](MeshId shade, Vec3 bulb, float candela) {
@@ -84,10 +84,10 @@ void add_lamps(Decorator& hall, Scene& scene, const HallPalette& palette) {
         for (const float z : {-kApart, 0.0f, kApart})
             add_lamp(over_table, {x, kBulbHeight, kTableZ + z}, kTableBulb);
 
-    constexpr float kBarBulbHeight = 2.05f;
+    constexpr float kBarBulbHeight = 2.45f;
     const MeshId over_bar = hall.mesh("Bar lamp", pendant(palette, kHeight - kBarBulbHeight));
     for (const float x : {-1.1f, 1.1f})
-        add_lamp(over_bar, {kBarX + x, kBarBulbHeight, kBarZ}, kBarBulb);
+        add_lamp(over_bar, {kBarX + x, kBarBulbHeight, kBarZ - 0.25f}, kBarBulb);
 }
 
 // A game in progress on the middle table: the cue ball and fourteen that are left.
@@ -120,14 +120,20 @@ void add_game(Decorator& hall, Scene& scene, const HallPalette& palette) {
         hall.place(name, pool_ball(scene, lie.number),
                    moved(middle + Vec3(lie.place.x, 0, lie.place.y)) * turned(lie.axis, lie.turn));
     }
-    // A cue rests on the rail, aimed at the cue ball.
+    // A cue lies on the cloth and the rail; its weight is inside.
     const MeshId stick = hall.mesh("Cue", cue(palette));
-    const Vec3 tip = middle + Vec3(0.19f, 0.02f, 0.86f);
-    const Vec3 butt = tip + 1.47f * glm::normalize(Vec3(0.22f, 0.062f, 1));
+    const Vec3 tip = Vec3(kTableX[1] + 0.27f, kClothHeight + 0.007f, kTableZ + 0.3f);
+    const Vec3 butt = tip + 1.47f * glm::normalize(Vec3(0.1f, 0.0475f, 1));
     const Vec3 along = glm::normalize(tip - butt);
     hall.place(
         "Cue 1", stick,
         moved(butt) * turned(glm::cross(Vec3(0, 1, 0), along), glm::degrees(std::acos(along.y))));
+    const MeshId cube = hall.mesh("Chalk", chalk(palette));
+    const Vec2 cubes[] = {{0.735f, 0.72f}, {-0.28f, -1.36f}};
+    for (int i = 0; i < 2; ++i)
+        hall.place("Chalk " + std::to_string(i + 1), cube,
+                   standing(kTableX[1] + cubes[i].x, kTableZ + cubes[i].y,
+                            35 * static_cast<float>(i + 1), kRailHeight + 0.0003f));
 }
 
 void add_tables(Decorator& hall, const HallPalette& palette) {
@@ -207,9 +213,9 @@ Scene make_poolhall() {
     add_bar(hall, palette);
     hang_on_walls(hall, palette);
     scene.cameras = {{.name = "main",
-                      .eye = {4.5f, 1.62f, 7.4f},
-                      .target = {5.8f, 0.78f, 4.4f},
-                      .vertical_fov = 55},
+                      .eye = {6.1f, 1.27f, 6.8f},
+                      .target = {5.36f, 0.89f, 4.7f},
+                      .vertical_fov = 52},
                      {.name = "balls",
                       .eye = {5.15f, 1.08f, 6.0f},
                       .target = {5.5f, 0.77f, 5.1f},

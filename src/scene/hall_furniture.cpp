@@ -23,11 +23,12 @@ void add_panels(Mesh& mesh, Vec2 low, Vec2 high, int count, MaterialId material,
 
 Mesh pendant(const HallPalette& palette, float drop) {
     constexpr int kSides = 14;
-    // The bulb reaches down to the rim, so that walls are lit up to its height; through the open
-    // top some light goes to the ceiling.
+    // The rim hides the bulb from above 17 degrees below the horizon, so that walls are in the
+    // dark; through the open top some light goes to the ceiling.
     const Vec2 outside[] = {
-        {0.21f, -0.02f}, {0.205f, -0.01f}, {0.17f, 0.05f}, {0.1f, 0.105f}, {0.055f, 0.125f}};
-    const Vec2 inside[] = {{0.055f, 0.125f}, {0.098f, 0.1f}, {0.167f, 0.047f}, {0.21f, -0.02f}};
+        {0.23f, -0.07f}, {0.205f, 0}, {0.155f, 0.065f}, {0.1f, 0.108f}, {0.055f, 0.128f}};
+    const Vec2 inside[] = {
+        {0.055f, 0.128f}, {0.096f, 0.104f}, {0.15f, 0.062f}, {0.2f, -0.002f}, {0.23f, -0.07f}};
     const Vec2 neck[] = {{0.024f, 0.09f}, {0.024f, 0.15f}, {0.012f, 0.18f}, {0.004f, 0.24f}};
     const Vec2 rose[] = {{0.006f, drop - 0.04f}, {0.05f, drop - 0.02f}, {0.055f, drop}};
     Mesh mesh;

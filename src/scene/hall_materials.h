@@ -9,7 +9,7 @@ namespace chiaro {
 struct HallPalette {
     Palette room;
     MaterialId cloth, rail, leather, inlay, metal, casting, panel, paint, ceiling, floor;
-    MaterialId enamel, enamel_inside, seat, cue_shaft, chalk;
+    MaterialId enamel, enamel_inside, seat, cue_shaft, chalk, label;
     std::array<MaterialId, 5> bottles;
 };
 

@@ -19,4 +19,7 @@ Mesh cue(const HallPalette& palette);
 /// The triangle that balls are racked with, lying on y = 0.
 Mesh ball_rack(const HallPalette& palette);
 
+/// A cube of chalk in its paper, worn hollow, standing on y = 0.
+Mesh chalk(const HallPalette& palette);
+
 }  // namespace chiaro
