@@ -112,17 +112,22 @@ private:
 };
 
 /// What is known of one channel at one vertex; 20 bytes, as there are many.
+///
+/// A stale one is of the scene before an edit. It is shown until there is a new one, whose samples
+/// take its place and are not mixed with it. Its variance holds how far it may be off by now, and
+/// its samples are as many as would tell as much.
 struct Estimate {
     static constexpr float kUnknown = -1;
     static constexpr std::uint32_t kMostSamples = (1U << 18) - 1;
-    static constexpr Cycle kCycleMask = (1U << 14) - 1;
+    static constexpr Cycle kCycleMask = (1U << 13) - 1;
 
     Rgb mean = Rgb(0);      // irradiance [lux a colour channel], or radiance of a glossy channel
     Bfloat16 variance = 0;  // of the mean's luminance [lux^2]
     Bfloat16 surplus = 0;   // luminance by which the first mean missed its prediction, less noise
                             // [lux]; kUnknown where there was none
     std::uint32_t samples : 18 = 0;    // counted up to kMostSamples
-    std::uint32_t shaded_at : 14 = 0;  // cycle, of which the lower bits: ages go up to kCycleMask
+    std::uint32_t shaded_at : 13 = 0;  // cycle, of which the lower bits: ages go up to kCycleMask
+    std::uint32_t stale : 1 = 0;
 };
 
 }  // namespace chiaro

@@ -50,7 +50,8 @@ PatchId ShadingCache::root(ObjectId object, std::uint32_t primitive, bool front)
         const std::uint32_t vertex = place.graph.vertex_of_corner[corner_index(place.mesh, corner)];
         const VertexId id = mesh_vertex(place, static_cast<MeshVertexId>(vertex), corner);
         if (relocated(id)) {
-            forget(id);
+            note_forgotten(id, kAllChannels);
+            estimates_.forget(id, kAllChannels);
             put(id, side, place.uv_of(corner));
         }
         notes_[index_of(id)].of_root = 1;
@@ -90,12 +91,6 @@ void ShadingCache::relocate(VertexId hidden, VertexId in_view) {
     check(!evaluated(hidden), "relocate: the vertex is evaluated where it is");
     put(hidden, vertex(in_view).surface_side, vertex(in_view).uv);
     notes_[index_of(hidden)].relocated = 1;
-}
-
-void ShadingCache::forget(VertexId id) {
-    for (int c = 0; c < channels(); ++c)
-        if (evaluated(id, c)) forgotten_.emplace_back(id, c);
-    estimates_.forget(id, kAllChannels);
 }
 
 // What was found of the place where it was sampled before no longer counts.

@@ -21,21 +21,35 @@ ShadingCache::ShadingCache(const Scene& scene, const MeshGraphs& graphs, Channel
     const int total = channels.irradiance + channels.glossy;
     check(channels.irradiance >= 1 && channels.glossy >= 0 && total <= 8,
           "ShadingCache: 1 to 8 channels");
-    std::size_t primitives = 0, vertices = 0;
-    for (const Object& object : scene.objects) {
+    shown_.resize(total);
+    follow_scene();
+}
+
+void ShadingCache::follow_scene() {
+    std::size_t primitives = roots_.size() / 2, vertices = mesh_vertices_.size() / 2;
+    for (std::size_t i = first_primitive_.size(); i < scene_->objects.size(); ++i) {
+        const Object& object = scene_->objects[i];
         first_primitive_.push_back(static_cast<std::uint32_t>(primitives));
         first_mesh_vertex_.push_back(static_cast<std::uint32_t>(vertices));
-        primitives += scene.mesh_of(object).primitives.size();
-        vertices += graphs.of(object.mesh).vertex_count();
+        primitives += scene_->mesh_of(object).primitives.size();
+        vertices += graphs_->of(object.mesh).vertex_count();
     }
     check(primitives <= kMostPrimitives, "ShadingCache: more primitives than ids");
-    for (const Material& material : scene.materials) {
-        const float y = std::clamp(luminance(mean_reflectance(scene, material)), 0.0f, 1.0f);
+    roots_.resize(2 * primitives, PatchId::none);
+    mesh_vertices_.resize(2 * vertices, VertexId::none);
+
+    reflectances_.clear();
+    for (const Material& material : scene_->materials) {
+        const float y = std::clamp(luminance(mean_reflectance(*scene_, material)), 0.0f, 1.0f);
         reflectances_.push_back(static_cast<std::uint8_t>(std::lround(255 * y)));
     }
-    roots_.assign(2 * primitives, PatchId::none);
-    mesh_vertices_.assign(2 * vertices, VertexId::none);
-    shown_.resize(total);
+    for (std::size_t side = 0; side < roots_.size(); ++side)
+        if (roots_[side] != PatchId::none) {
+            const SurfacePoint at = place(static_cast<std::uint32_t>(side), Vec2(0));
+            patch(roots_[side]).reflectance = reflectances_[index_of(material_of(*scene_, at))];
+        }
+    for (Patch& p : patches_)  // parents come before children
+        if (!p.is_root()) p.reflectance = patches_[p.parent].reflectance;
 }
 
 PatchId ShadingCache::subdivide(PatchId leaf) {

@@ -103,8 +103,8 @@ public:
     void relocate(VertexId hidden, VertexId in_view);
     bool of_root(VertexId vertex) const { return notes_[index_of(vertex)].of_root; }
     bool relocated(VertexId vertex) const { return notes_[index_of(vertex)].relocated; }
-    /// What root() has forgotten since this was asked last: relocated vertices were evaluated, and
-    /// are no longer.
+    /// What was forgotten since this was asked last, by forget() or by root() of relocated
+    /// vertices: evaluated once, and no longer.
     std::vector<std::pair<VertexId, int>> take_forgotten() { return std::exchange(forgotten_, {}); }
 
     /// Estimate of a channel at a vertex, if it was evaluated there.
@@ -127,10 +127,24 @@ public:
     /// than it would tell. Returns whether it was less. Checks: evaluated.
     bool suspect(VertexId vertex, int channel, float luminance);
 
-    /// Merges `samples` further samples with their `mean` and the luminance variance of that mean.
-    /// The first time, notes the surplus over the parents' prediction. Checks: finite, samples > 0.
+    /// Merges `samples` further samples with their `mean` and the luminance variance of that mean;
+    /// they replace a stale estimate. The first time, and then, notes the surplus over the parents'
+    /// prediction. Checks: finite, samples > 0.
     void store(VertexId vertex, int channel, Rgb mean, float variance, std::uint32_t samples,
                Cycle now);
+    /// An edit has reached what an estimate, if there is one, tells: it is stale, and may be off by
+    /// `error2` (expected squared error of its luminance). Again: now by so much.
+    void outdate(VertexId vertex, int channel, float error2);
+    /// Gives up what channels (bit c: channel c) know at a vertex, which is predicted then.
+    void forget(VertexId vertex, std::uint8_t channels);
+    /// Gives up all that is known at a vertex, and whether it is buried, as if it were new.
+    void forget(VertexId vertex);
+    static constexpr std::uint8_t kAllChannels = 0xff;
+
+    /// Objects and meshes may have been appended to the scene, whose graphs have them, and
+    /// materials are not what they were.
+    void follow_scene();
+
     /// Most rays from the vertex met the inside of a solid (design: buried vertices).
     void mark_buried(VertexId vertex);
     /// More samples have told otherwise.
@@ -183,7 +197,7 @@ private:
     MeshPlace mesh_place(std::uint32_t surface_side) const;
     VertexId mesh_vertex(const MeshPlace& place, MeshVertexId vertex, MeshCorner sampled_at);
     void put(VertexId vertex, std::uint32_t surface_side, Vec2 uv);
-    void forget(VertexId vertex);
+    void note_forgotten(VertexId vertex, std::uint8_t channels);
     VertexId edge_midpoint(PatchId patch, Node node);
     VertexId node_vertex(PatchId patch, Node node);
     static Parents parents_of(const ParentSet& set);
@@ -226,7 +240,6 @@ private:
     std::vector<std::pair<VertexId, int>> forgotten_;  // take_forgotten()
 
     static constexpr std::size_t kNothing = ~std::size_t{0};
-    static constexpr std::uint8_t kAllChannels = 0xff;
     std::vector<std::uint8_t> changed_;     // by vertex: bit c, in channel c
     std::size_t first_changed_ = kNothing;  // no vertex before it has changed
 };

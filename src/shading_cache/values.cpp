@@ -22,6 +22,7 @@ void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std
         // Batches are merged as if they were independent; parts of one Halton sequence do better
         // than that, so that the variance is not understated.
         Estimate& e = *known;
+        if (e.stale) e.samples = 0;
         const float old_part =
             static_cast<float>(e.samples) / static_cast<float>(e.samples + samples);
         const float new_part = 1 - old_part;
@@ -29,6 +30,10 @@ void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std
         e.variance = old_part * old_part * e.variance + new_part * new_part * variance;
         e.samples = std::min(e.samples + samples, Estimate::kMostSamples) & Estimate::kMostSamples;
         e.shaded_at = now & Estimate::kCycleMask;
+        if (e.stale) {
+            e.stale = 0;
+            e.surplus = first_surplus(id, channel, mean, variance);
+        }
     }
     resolve_hollow(id);
     resolve_vertex(id, channel);
@@ -75,6 +80,39 @@ bool ShadingCache::suspect(VertexId id, int channel, float luminance) {
     e.surplus = luminance;
     note_change(id, channel);
     return true;
+}
+
+void ShadingCache::outdate(VertexId id, int channel, float error2) {
+    Estimate* e = estimates_.find(id, channel);
+    if (!e) return;
+    // As many samples as would leave that error.
+    const float samples = static_cast<float>(e->samples) * e->variance;
+    e->variance = e->stale ? error2 : e->variance + error2;
+    e->samples =
+        static_cast<std::uint32_t>(std::clamp(samples / std::max<float>(e->variance, 1e-30f), 1.0f,
+                                              static_cast<float>(Estimate::kMostSamples))) &
+        Estimate::kMostSamples;
+    e->stale = 1;
+    note_change(id, channel);
+}
+
+void ShadingCache::forget(VertexId id, std::uint8_t channels) {
+    if ((estimates_.known(id) & channels) == 0) return;
+    note_forgotten(id, channels);
+    estimates_.forget(id, channels);
+    resolve_vertex(id);
+}
+
+void ShadingCache::forget(VertexId id) {
+    note_forgotten(id, kAllChannels);
+    estimates_.forget(id, kAllChannels);
+    vertices_[index_of(id)].buried = vertices_[index_of(id)].exposed = 0;
+    resolve_vertex(id);
+}
+
+void ShadingCache::note_forgotten(VertexId id, std::uint8_t channels) {
+    for (int c = 0; c < this->channels(); ++c)
+        if (channels >> c & 1 && evaluated(id, c)) forgotten_.emplace_back(id, c);
 }
 
 void ShadingCache::mark_buried(VertexId id) {
