@@ -10,7 +10,6 @@
 // and with `gather` the filling of its cells: each run starts without any, or with those that
 // --before N samples a place leave. --truth-file F keeps the truth for other runs of the same view.
 
-#include "apps/make_renderer.h"
 #include "apps/open_scene.h"
 #include "base/parallel.h"
 #include "base/random.h"
@@ -18,6 +17,7 @@
 #include "run_program.h"
 #include "scene/bsdf.h"
 #include "scene/open_sides.h"
+#include "update/make_renderer.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 #include "quality_methods.h"
 
-#include "apps/make_renderer.h"
 #include "base/error.h"
 #include "base/image_difference.h"
 #include "base/tone_map.h"
@@ -8,7 +7,8 @@
 #include "import/image_file.h"
 #include "sample_renderer/radiance.h"
 #include "sample_renderer/reference_renderer.h"
-#include "update/update_cycle.h"
+#include "update/make_renderer.h"
+#include "update/session.h"
 
 #include <fmt/format.h>
 
@@ -38,6 +38,11 @@ constexpr Method kMethods[] = {
      .renderer = RendererName::bidirectional,
      .levels = CoarserLevels::up_to_a_tenth},
     {.option = "paper", .title = "paper", .cached = true, .scheme = Scheme::paper},
+    {.option = "edited",
+     .title = "edited",
+     .cached = true,
+     .renderer = RendererName::gather,
+     .edited = true},
     {.option = "path", .title = "path", .cached = false},
 };
 
@@ -167,6 +172,58 @@ Json measure_cache(const Method& method, const Measuring& measuring) {
             {"rows", recorder.rows}};
 }
 
+// Of all points that were shaded before the edits, those that stay as they are is what counts.
+Json count_stale(const ShadingCache& cache) {
+    Json counts = Json::array();
+    for (int c = 0; c < cache.channels(); ++c) {
+        std::size_t evaluated = 0, stale = 0;
+        for (std::size_t i = 0; i < cache.vertices().size(); ++i)
+            if (const Estimate* e = cache.estimate(static_cast<VertexId>(i), c)) {
+                ++evaluated;
+                stale += e->stale;
+            }
+        counts.push_back({{"evaluated", evaluated}, {"stale", stale}});
+    }
+    return counts;
+}
+
+// The time that an edit takes counts.
+Json measure_edited(const Method& method, const Measuring& measuring) {
+    check(measuring.before != nullptr, "measure_edited: there is nothing before the edits");
+    const Before& before = *measuring.before;
+    const View& view = measuring.stage.view;
+    Session session(before.scene, before.camera,
+                    {.update = {.scheme = method.scheme, .threads = measuring.stage.threads},
+                     .renderer = method.renderer,
+                     .width = view.width(),
+                     .height = view.height()});
+    while (session.cycle().statistics().seconds < before.seconds) session.run();
+
+    Recorder recorder(method, measuring);
+    Json stale = {{"before", count_stale(session.cycle().cache())}};
+    double spent = 0;
+    Stopwatch watch;
+    for (const Edit& edit : before.edits) session.apply(edit);
+    for (bool first = true; first || spent < measuring.seconds; first = false) {
+        session.run();
+        spent += watch.seconds();
+        if (first) stale["after_a_cycle"] = count_stale(session.cycle().cache());
+        if (recorder.due(spent) || first) {
+            watch.restart();
+            const Image picture = session.cycle().picture();
+            Json& row = recorder.add(spent, watch.seconds(), picture);
+            row["stale"] = session.cycle().stale();
+            row["points"] = session.cycle().statistics().points_shaded;
+        }
+        watch.restart();
+    }
+    stale["in_the_end"] = count_stale(session.cycle().cache());
+    return {{"loading", Json::object()},
+            {"stale", stale},
+            {"pictures", recorder.pictures},
+            {"rows", recorder.rows}};
+}
+
 Json measure_path_tracing(const Method& method, const Measuring& measuring) {
     const Stage& stage = measuring.stage;
     Recorder recorder(method, measuring);
@@ -208,6 +265,7 @@ void keep_picture(const Measuring& measuring, const std::string& name, const Ima
 }
 
 Json measure(const Method& method, const Measuring& measuring) {
+    if (method.edited) return measure_edited(method, measuring);
     return method.cached ? measure_cache(method, measuring)
                          : measure_path_tracing(method, measuring);
 }

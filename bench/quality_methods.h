@@ -5,6 +5,7 @@
 #include "base/image.h"
 #include "rays/ray_caster.h"
 #include "scene/area_lights.h"
+#include "scene/edit.h"
 #include "shading_cache/mesh_graph.h"
 
 #include <nlohmann/json.hpp>
@@ -46,10 +47,19 @@ struct Method {
     RendererName renderer = RendererName::path;
     Scheme scheme = Scheme::best;
     CoarserLevels levels = CoarserLevels::none;
+    bool edited = false;  // the cache knows the scene before the edits, which come at 0 s
 };
 
 /// The method of that name on the command line. Throws an Error that lists the names.
 const Method& method_of(const std::string& option);
+
+/// What the stage's scene was before edits made it what it is.
+struct Before {
+    Scene scene;
+    Camera camera;
+    std::vector<Edit> edits;
+    double seconds = 10;  // for which the cache has looked at it when they come
+};
 
 /// How a method is measured.
 struct Measuring {
@@ -61,7 +71,8 @@ struct Measuring {
     /// than one of the times [s], ascending.
     std::string picture_folder;
     std::vector<double> picture_times;
-    float exposure = 1;  // of all pictures
+    float exposure = 1;              // of all pictures
+    const Before* before = nullptr;  // of methods that are `edited`
 };
 
 /// Writes `linear` to the folder of pictures as `name`.png.

@@ -9,10 +9,12 @@
 // the reference is that of the plain scene.
 
 #include "apps/open_scene.h"
+#include "base/error.h"
 #include "base/random.h"
 #include "base/tone_map.h"
 #include "figures.h"
 #include "import/image_file.h"
+#include "import/resolve_edits.h"
 #include "quality_methods.h"
 #include "run_program.h"
 #include "sample_renderer/radiance.h"
@@ -21,6 +23,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -36,6 +39,8 @@ struct Settings {
     std::string name = "scene", folder = "out/quality";
     float bisect = 0;
     std::vector<std::string> methods = {"best", "traced", "paper", "path"};
+    std::string changes;
+    double before = 10;
     std::string pictures;
     std::vector<double> picture_times = {0.25, 0.5, 1, 2, 4};
 };
@@ -50,7 +55,12 @@ void add_options(CLI::App& app, Settings& s) {
                    "halve edges until none is longer than this part of the scene's diagonal, as "
                    "200 for 1/200")
         ->check(CLI::PositiveNumber);
-    app.add_option("--methods", s.methods, "of best, roots, traced, bidirectional, paper, path")
+    app.add_option("--changes", s.changes,
+                   "an edit script: the picture that is measured is that of the edited scene, "
+                   "which is new to all methods but `edited`");
+    app.add_option("--before", s.before, "seconds for which `edited` has known the scene before");
+    app.add_option("--methods", s.methods,
+                   "of best, roots, traced, bidirectional, paper, edited, path")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--pictures", s.pictures, "a folder for pictures at several times");
@@ -72,7 +82,15 @@ std::uint32_t fingerprint(const Scene& scene, const View& view) {
         add_vector(m.base_color);
         add_vector(m.emission);
     }
-    for (const PunctualLight& light : scene.lights) add_vector(light.intensity);
+    for (const PunctualLight& light : scene.lights) {
+        add_vector(light.on ? light.intensity : Rgb(0));
+        add_vector(light.position);
+        add_vector(light.direction);
+    }
+    for (const Object& object : scene.objects) {
+        add_vector(object.shown ? object.emission_scale : Rgb(-1));
+        for (int i = 0; i < 4; ++i) add_vector(Vec3(object.to_world[i]));
+    }
     for (const float corner : {0.0f, 100.0f}) {
         const Ray ray = view.ray(corner, corner);
         add_vector(ray.origin);
@@ -120,11 +138,20 @@ int run(int argc, char** argv) {
 
     std::vector<const Method*> methods;
     for (const std::string& name : settings.methods) methods.push_back(&method_of(name));
+    if (settings.changes.empty() &&
+        std::ranges::any_of(methods, [](const Method* m) { return m->edited; }))
+        throw Error("--methods", "'edited' has no edits", "give a script by --changes");
     const int threads = thread_count(options);
     const PictureSize size = parse_size(options.size);
     Scene scene = open_scene(options);
-    const Camera camera = choose_camera(scene, options);
+    Camera camera = choose_camera(scene, options);
     add_headlamp_if_dark(scene, camera);
+    std::optional<Before> before;
+    if (!settings.changes.empty()) {
+        before = {scene, camera, resolve_edits(read_edits(settings.changes), scene, camera),
+                  settings.before};
+        for (const Edit& edit : before->edits) apply(scene, camera, edit);
+    }
     const View view(camera, size.width, size.height);
 
     std::filesystem::create_directories(settings.folder);
@@ -145,7 +172,8 @@ int run(int argc, char** argv) {
         .path_seconds = settings.path_seconds,
         .picture_folder = settings.pictures,
         .picture_times = settings.picture_times,
-        .exposure = options.exposure ? std::exp2(*options.exposure) : automatic_exposure(truth)};
+        .exposure = options.exposure ? std::exp2(*options.exposure) : automatic_exposure(truth),
+        .before = before ? &*before : nullptr};
     if (!settings.pictures.empty()) {
         std::filesystem::create_directories(settings.pictures);
         keep_picture(measuring, "reference", truth);

@@ -4,7 +4,7 @@
 // One thread. Renderer and replay take turns every few points, and both are timed by the thread's
 // own processor time, so that other programs disturb neither much and both alike.
 
-#include "apps/make_renderer.h"
+#include "apps/options.h"
 #include "base/random.h"
 #include "figures.h"
 #include "furnished_box.h"

@@ -7,6 +7,7 @@
 namespace chiaro {
 
 int render_command(const Options& options);
+int play_command(const Options& options);
 int reference_command(const Options& options);
 int trace_command(const Options& options);
 int diff_command(const Options& options);

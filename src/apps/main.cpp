@@ -64,6 +64,37 @@ std::string in_our_words(const CLI::ParseError& e) {
 
 using Run = std::function<int()>;
 
+// Of commands that run the cache.
+void add_scheme_options(CLI::App& command, Options& o) {
+    command.add_option("--scheme", o.scheme, "best, or paper: as published in 2002")
+        ->capture_default_str();
+    command.add_option("--direct-samples", o.direct_samples,
+                       "a vertex, in --scheme paper (default: 100)");
+    command.add_option("--indirect-samples", o.indirect_samples,
+                       "a vertex, in --scheme paper (default: 400)");
+    command.add_option("--aov", o.aov, "radiance, or irradiance in lux")->capture_default_str();
+    command.add_option("--stats", o.statistics, "write figures of the run as JSON");
+}
+
+void add_play_command(CLI::App& app, Options& o, Run& run) {
+    CLI::App& play = *app.add_subcommand("play", "timed edits and animations, replayed");
+    add_scene_options(play, o);
+    play.add_option("-o,--output", o.output,
+                    "folder for the pictures that the script asks for: frame_000.png, .exr, ...")
+        ->required();
+    play.add_option("--script", o.script, "edits (JSON), each made at its time");
+    play.add_option("--animation", o.animation, "an animation of the scene, played by its name");
+    add_view_options(play, o);
+    add_render_options(play, o);
+    play.add_flag("--fixed-cycles", o.fixed_cycles,
+                  "cycles of a fixed size, each 0.05 s of the script: the same pictures on any "
+                  "machine, not in real time");
+    add_scheme_options(play, o);
+    play.footer(
+        "Example:\n  chiaro play builtin:room --animation path --script edits.json -o frames");
+    play.callback([&] { run = [&] { return play_command(o); }; });
+}
+
 void add_picture_commands(CLI::App& app, Options& o, Run& run) {
     CLI::App& render = *app.add_subcommand("render", "a converging picture from the Shading Cache");
     add_scene_options(render, o);
@@ -76,19 +107,14 @@ void add_picture_commands(CLI::App& app, Options& o, Run& run) {
         .add_option("--samples", o.samples,
                     "points to shade instead: the same picture on any number of threads")
         ->check(whole_number());
-    render.add_option("--scheme", o.scheme, "best, or paper: as published in 2002")
-        ->capture_default_str();
-    render.add_option("--direct-samples", o.direct_samples,
-                      "a vertex, in --scheme paper (default: 100)");
-    render.add_option("--indirect-samples", o.indirect_samples,
-                      "a vertex, in --scheme paper (default: 400)");
-    render.add_option("--aov", o.aov, "radiance, or irradiance in lux")->capture_default_str();
-    render.add_option("--stats", o.statistics, "write figures of the run as JSON");
+    add_scheme_options(render, o);
     render.footer(
         "Examples:\n  chiaro render builtin:room -o room.png --time 10\n"
         "  chiaro render kitchen.obj -o kitchen.exr --eye 7.6,-4.2,1.4 --target 12,4.7,0.1 --up "
         "0,0,1 --vfov 60");
     render.callback([&] { run = [&] { return render_command(o); }; });
+
+    add_play_command(app, o, run);
 
     CLI::App& reference =
         *app.add_subcommand("reference", "the same picture by path tracing each pixel");
@@ -132,7 +158,7 @@ void add_measuring_commands(CLI::App& app, Options& o, Run& run) {
 }
 
 void add_later_commands(CLI::App& app, Run& run) {
-    for (const char* name : {"view", "play", "compare", "worker"}) {
+    for (const char* name : {"view", "compare", "worker"}) {
         CLI::App& later = *app.add_subcommand(name, "comes in a later version");
         later.allow_extras();
         later.callback([name, &run] { run = [name] { return comes_later(name); }; });

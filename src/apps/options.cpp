@@ -117,10 +117,6 @@ int thread_count(const Options& options) {
     return options.threads > 0 ? options.threads : hardware_threads();
 }
 
-std::uint32_t short_seed(std::uint64_t seed) {
-    return seed >> 32 == 0 ? static_cast<std::uint32_t>(seed) : hash64(seed);
-}
-
 CLI::Validator whole_number() {
     return {[](std::string& text) {
                 return parse_whole<std::uint64_t>(text) ? std::string()

@@ -3,6 +3,7 @@
 
 #include "rays/ray_caster.h"
 #include "scene/camera.h"
+#include "update/make_renderer.h"
 #include "update/update_cycle.h"
 
 #include <CLI/CLI.hpp>
@@ -33,6 +34,8 @@ struct Options {
     float curve_error = kCurveTolerance;
     std::string environment, sky;
     std::string edits;
+    std::string script, animation;  // play
+    bool fixed_cycles = false;
 
     std::optional<double> time;            // seconds after loading
     std::optional<std::uint64_t> samples;  // points shaded
@@ -56,7 +59,6 @@ glm::dvec3 parse_vector(const std::string& option, const std::string& text);
 Rgb parse_sky(const std::string& text);
 Scheme parse_scheme(const std::string& text);
 Aov parse_aov(const std::string& text);
-enum class RendererName { path, gather, bidirectional, caustic };
 /// `otherwise` where nothing was asked for.
 RendererName parse_renderer(const std::string& text, RendererName otherwise);
 /// For commands that only have `path`.
@@ -69,9 +71,6 @@ float curve_tolerance(const Options& options);
 
 /// Threads to use: what was asked for, or all that the machine has.
 int thread_count(const Options& options);
-
-/// The seed as renderers take it; those below 2^32 are themselves.
-std::uint32_t short_seed(std::uint64_t seed);
 
 /// Refuses what is no whole number of 64 bits: CLI11 would take negative numbers round to large
 /// ones, and larger ones down to the largest.

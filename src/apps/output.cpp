@@ -59,6 +59,12 @@ std::string statistics_json(const UpdateCycle& cycle, const RunFigures& figures)
     for (std::size_t i = 0; i < kSteps; ++i)
         j["cycle_ms"][kStepNames[i]] = 1e3 * s.timings.seconds[i] / cycles;
     j["cycle_ms"]["total"] = 1e3 * s.seconds / cycles;
+    for (const FrameFigures& frame : figures.frames)
+        j["frames"].push_back({{"t", frame.time},
+                               {"seconds", frame.seconds},
+                               {"points_shaded", frame.points_shaded},
+                               {"stale", frame.stale},
+                               {"bytes", frame.bytes}});
     return j.dump(2) + "\n";
 }
 

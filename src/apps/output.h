@@ -6,6 +6,7 @@
 #include "update/update_cycle.h"
 
 #include <chrono>
+#include <vector>
 
 namespace chiaro {
 
@@ -15,10 +16,20 @@ void check_outputs(const Options& options);
 /// Writes a linear picture: .exr as it is, .png through the tone map.
 void save_picture(const Options& options, const Image& picture);
 
+/// What was reached when a picture of a replay was taken.
+struct FrameFigures {
+    double time = 0;     // that was asked for [s]
+    double seconds = 0;  // of wall time after loading
+    std::size_t points_shaded = 0;
+    std::size_t stale = 0;  // estimates from before edits
+    std::size_t bytes = 0;  // UpdateCycle::bytes()
+};
+
 /// The figures of a run as `--stats` writes them.
 struct RunFigures {
     double seconds = 0;  // of wall time after loading
     double first_picture_seconds = 0;
+    std::vector<FrameFigures> frames;
 };
 std::string statistics_json(const UpdateCycle& cycle, const RunFigures& figures);
 

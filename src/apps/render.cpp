@@ -1,9 +1,9 @@
 // chiaro render: the Shading Cache without a window.
 
 #include "apps/commands.h"
-#include "apps/make_renderer.h"
 #include "apps/open_scene.h"
 #include "apps/output.h"
+#include "apps/render_settings.h"
 #include "base/error.h"
 #include "import/output_file.h"
 
@@ -15,20 +15,6 @@ namespace chiaro {
 namespace {
 
 constexpr double kDefaultSeconds = 10;
-
-UpdateSettings update_settings(const Options& options) {
-    UpdateSettings s;
-    s.scheme = parse_scheme(options.scheme);
-    s.threads = thread_count(options);
-    s.seed = options.seed;
-    s.aov = parse_aov(options.aov);
-    s.direct_samples = sample_count("--direct-samples", options.direct_samples, 100);
-    s.indirect_samples = sample_count("--indirect-samples", options.indirect_samples, 400);
-    s.fixed_size = options.samples.has_value();
-    if (s.scheme == Scheme::best && (options.direct_samples || options.indirect_samples))
-        warn("--direct-samples and --indirect-samples mean nothing without --scheme paper");
-    return s;
-}
 
 void check_budget(const Options& options) {
     check_time(options);
@@ -74,30 +60,19 @@ RunFigures run_cycles(UpdateCycle& cycle, const Options& options) {
 int render_command(const Options& options) {
     check_outputs(options);
     check_budget(options);
-    const UpdateSettings settings = update_settings(options);
-    const RendererName renderer_name =
-        parse_renderer(options.renderer, settings.scheme == Scheme::paper ? RendererName::path
-                                                                          : RendererName::gather);
-    const PictureSize size = parse_size(options.size);
+    SessionSettings settings = session_settings(options);
+    settings.update.fixed_size = options.samples.has_value();
     Scene scene = open_scene(options);
     Camera camera = choose_camera(scene, options);
     apply_edits(scene, camera, options);
     add_headlamp_if_dark(scene, camera);
 
-    RayCaster rays(scene, settings.threads, curve_tolerance(options));
-    const AreaLights area_lights(scene);
-    const MeshGraphs graphs(scene, coarser_levels(settings.scheme), settings.threads);
-    OpenSides open_sides(scene);
-    const auto renderer = make_renderer(renderer_name, scene, rays, area_lights, &open_sides,
-                                        settings.threads, short_seed(options.seed));
-    UpdateCycle cycle(rays, graphs, *renderer, open_sides, settings);
-    cycle.look_from(View(camera, size.width, size.height));
-
+    Session session(std::move(scene), camera, settings);
     catch_interrupts();
-    const RunFigures figures = run_cycles(cycle, options);
-    save_picture(options, cycle.picture());
+    const RunFigures figures = run_cycles(session.cycle(), options);
+    save_picture(options, session.cycle().picture());
     if (!options.statistics.empty())
-        replace_file(options.statistics, statistics_json(cycle, figures));
+        replace_file(options.statistics, statistics_json(session.cycle(), figures));
     return 0;
 }
 

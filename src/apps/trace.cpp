@@ -2,7 +2,6 @@
 // rtrace.
 
 #include "apps/commands.h"
-#include "apps/make_renderer.h"
 #include "apps/open_scene.h"
 #include "base/error.h"
 #include "base/random.h"
@@ -10,6 +9,7 @@
 #include "import/load_scene.h"
 #include "import/text_lines.h"
 #include "sample_renderer/radiance.h"
+#include "update/make_renderer.h"
 
 #include <poll.h>
 #include <unistd.h>

@@ -31,6 +31,11 @@ inline std::uint32_t hash64(std::uint64_t x) {
     return hash32(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(x >> 32));
 }
 
+/// A session's seed as renderers take it; those below 2^32 are themselves.
+inline std::uint32_t short_seed(std::uint64_t seed) {
+    return seed >> 32 == 0 ? static_cast<std::uint32_t>(seed) : hash64(seed);
+}
+
 /// The 24 high bits of `bits` as a float in [0, 1).
 inline float to_unit_float(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) * 0x1p-24f;

@@ -102,6 +102,13 @@ float to_curve(const ShadingCache& cache, VertexId vertex, int channel, const Pi
     return to_curve(cache, channel, scale, reflectance, picture);
 }
 
+// What as many samples again cost; a stale estimate is worth few, but starts as a new one does.
+float seconds_of_more(const Estimate& e, int channel, const GainSettings& settings) {
+    const std::uint32_t samples =
+        e.stale ? std::max<std::uint32_t>(e.samples, settings.first_samples[channel]) : e.samples;
+    return static_cast<float>(samples) * settings.seconds_a_sample[channel];
+}
+
 std::uint32_t samples_of_new(const ShadingCache& cache, std::span<const VertexId> around,
                              int channel, const GainSettings& settings) {
     std::uint32_t fewest = 0;
@@ -165,10 +172,12 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
         float variance = e->variance;
         if (settings.zero_is_doubtful[channel] && max_component(e->mean) == 0)
             // As if one sample in this many found what lights the patch's other corners.
-            variance = corners.light * corners.light / (kDoubt * static_cast<float>(e->samples));
+            variance =
+                std::max(e->stale ? variance : 0.0f,
+                         corners.light * corners.light / (kDoubt * static_cast<float>(e->samples)));
         else if (cache.vertex(patch.corners[i]).buried)
             continue;
-        const float cost = static_cast<float>(e->samples) * settings.seconds_a_sample[channel];
+        const float cost = seconds_of_more(*e, channel, settings);
         // Half the variance would go at this corner; but it shows in all patches round it.
         const float drop = variance * slope * slope * pixels / cost;
         if (drop > result.resample) {
@@ -210,7 +219,7 @@ float gain_of_more(const ShadingCache& cache, VertexId vertex, int channel, floa
     const Estimate* e = cache.estimate(vertex, channel);
     if (!e || e->samples >= kMostSamples || cache.vertex(vertex).buried) return 0;
     const float slope = to_curve(cache, vertex, channel, settings.scale);
-    const float cost = static_cast<float>(e->samples) * settings.seconds_a_sample[channel];
+    const float cost = seconds_of_more(*e, channel, settings);
     return e->variance * slope * slope * pixels / cost;
 }
 

@@ -72,15 +72,22 @@ MeshGraph make_mesh_graph(const Mesh& mesh, const LevelSettings& settings, int t
     return graph;
 }
 
-MeshGraphs::MeshGraphs(const Scene& scene, CoarserLevels levels, int threads)
-    : graphs_(scene.meshes.size()) {
+MeshGraphs::MeshGraphs(const Scene& scene, CoarserLevels levels, int threads) : levels_(levels) {
+    add_meshes(scene, threads);
+}
+
+void MeshGraphs::add_meshes(const Scene& scene, int threads) {
+    const std::size_t first = graphs_.size();
+    if (first == scene.meshes.size()) return;
+    graphs_.resize(scene.meshes.size());
     std::vector<float> cells(scene.meshes.size(), 0.0f);
-    if (levels == CoarserLevels::up_to_a_tenth) cells = top_cells(scene);
+    if (levels_ == CoarserLevels::up_to_a_tenth) cells = top_cells(scene);
     const auto small = [&](std::size_t i) { return corner_count(scene.meshes[i]) < kSmallMesh; };
-    parallel_for(threads, graphs_.size(), [&](std::size_t i) {
+    parallel_for(threads, graphs_.size() - first, [&](std::size_t k) {
+        const std::size_t i = first + k;
         if (small(i)) graphs_[i] = make_mesh_graph(scene.meshes[i], {.top_cell = cells[i]}, 1);
     });
-    for (std::size_t i = 0; i < graphs_.size(); ++i)
+    for (std::size_t i = first; i < graphs_.size(); ++i)
         if (!small(i))
             graphs_[i] = make_mesh_graph(scene.meshes[i], {.top_cell = cells[i]}, threads);
 }

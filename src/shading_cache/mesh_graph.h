@@ -79,10 +79,14 @@ class MeshGraphs {
 public:
     MeshGraphs(const Scene& scene, CoarserLevels levels, int threads);
 
+    /// Makes those of meshes that were appended to the scene since.
+    void add_meshes(const Scene& scene, int threads);
+
     const MeshGraph& of(MeshId mesh) const { return graphs_[index_of(mesh)]; }
     std::size_t bytes() const;
 
 private:
+    CoarserLevels levels_;
     std::vector<MeshGraph> graphs_;  // by mesh
 };
 

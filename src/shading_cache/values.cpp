@@ -6,6 +6,7 @@
 #include "shading_cache/shading_cache.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace chiaro {
@@ -85,13 +86,12 @@ bool ShadingCache::suspect(VertexId id, int channel, float luminance) {
 void ShadingCache::outdate(VertexId id, int channel, float error2) {
     Estimate* e = estimates_.find(id, channel);
     if (!e) return;
-    // As many samples as would leave that error.
+    // As many samples as would leave that error, in powers of two.
     const float samples = static_cast<float>(e->samples) * e->variance;
     e->variance = e->stale ? error2 : e->variance + error2;
-    e->samples =
-        static_cast<std::uint32_t>(std::clamp(samples / std::max<float>(e->variance, 1e-30f), 1.0f,
-                                              static_cast<float>(Estimate::kMostSamples))) &
-        Estimate::kMostSamples;
+    constexpr float kMost = static_cast<float>(std::bit_floor(Estimate::kMostSamples));
+    const float worth = std::clamp(samples / std::max<float>(e->variance, 1e-30f), 1.0f, kMost);
+    e->samples = std::bit_floor(static_cast<std::uint32_t>(worth)) & Estimate::kMostSamples;
     e->stale = 1;
     note_change(id, channel);
 }

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "sample_selector/gain.h"
+#include "update/outdate.h"
 #include "update/start_level.h"
 #include "update/update_cycle.h"
 
@@ -224,6 +225,10 @@ void UpdateCycle::refresh(Extent extent) {
         cache_.resolve();
     }
     points_since_refresh_ = 0;
+    if (stale_ > 0)
+        stale_ = reconsider_stale(cache_, expected_, least_light(gains_.scale),
+                                  static_cast<Cycle>(statistics_.cycles) - edited_at_,
+                                  settings_.threads);
     if (statistics_.points_shaded > 2 * points_at_exposure_) {
         estimate_exposure();
         extent = Extent::everything;

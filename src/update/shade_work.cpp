@@ -22,6 +22,12 @@ std::uint32_t vertex_seed(const ShadingCache& cache, VertexId id, int channel,
     return hash32(h, static_cast<std::uint32_t>(channel));
 }
 
+// As many as it is worth, but not fewer than a vertex starts with.
+std::uint32_t samples_of_stale(const Estimate& e, const ChannelPlan& plan) {
+    const std::uint32_t whole = e.samples / kReplicates * kReplicates;
+    return std::clamp(whole, plan.first_samples, ShadeWork::kMostAtOnce);
+}
+
 }  // namespace
 
 ShadeWork::ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed, Vec3 eye)
@@ -39,6 +45,8 @@ bool ShadeWork::evaluate(const ShadingCache& cache, VertexId vertex, int channel
 bool ShadeWork::resample(const ShadingCache& cache, VertexId vertex, int channel) {
     const Estimate* e = cache.estimate(vertex, channel);
     if (!e) return evaluate(cache, vertex, channel);
+    if (e->stale)  // from the first one on: none is mixed with those of the scene before
+        return add(cache, vertex, channel, 0, samples_of_stale(*e, channels_[channel].plan));
     if (e->samples + kMostAtOnce > Estimate::kMostSamples) return false;
     return add(cache, vertex, channel, e->samples,
                std::min<std::uint32_t>(e->samples, kMostAtOnce));

@@ -19,6 +19,8 @@ struct ChannelPlan {
     // So are those at which it has found no light by kEnoughToBeDark samples, nor any other channel
     // has; until it finds some after all.
     bool zero_is_buried = false;
+
+    bool operator==(const ChannelPlan&) const = default;
 };
 
 /// Requests of one cycle. Each (vertex, channel) is asked for at most once a cycle.
@@ -33,7 +35,7 @@ public:
     bool evaluate(const ShadingCache& cache, VertexId vertex, int channel,
                   std::uint32_t samples = 0);
     /// Asks for as many samples again as an evaluated vertex has, at most kMostAtOnce, unless it
-    /// has all that are counted.
+    /// has all that are counted; of a stale one for as many that take the place of what it has.
     bool resample(const ShadingCache& cache, VertexId vertex, int channel);
 
     std::size_t points() const;

@@ -26,15 +26,14 @@ void UpdateCycle::start() {
     ShadeWork work = new_work();
     {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
+        if (edited_) lower_what_changes();
         attach_front();
     }
     if (settings_.scheme == Scheme::best && !settings_.fixed_size && cost_learning_ == 0)
         measure_costs();
     {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
-        const double seconds = settings_.fixed_size
-                                   ? kFixedFirstPictureSeconds
-                                   : settings_.first_picture_seconds * threads_at_once();
+        const double seconds = start_seconds();
         for (int c = 0; c < cache_.channels(); ++c) start_channel(c, seconds, work);
     }
     shade(work);
@@ -71,6 +70,13 @@ void UpdateCycle::dig_out() {
         expose_if_seen(cache_, static_cast<PatchId>(i));
 }
 
+// Processor seconds for the first picture. While edits come, the next one comes soon.
+double UpdateCycle::start_seconds() const {
+    if (settings_.fixed_size) return kFixedFirstPictureSeconds;
+    return threads_at_once() *
+           (moving_ ? settings_.cycle_seconds : settings_.first_picture_seconds);
+}
+
 double UpdateCycle::first_picture_share(int channel) const {
     double glossy_pixels = 0;
     for (const Patch& patch : cache_.patches())
@@ -80,6 +86,12 @@ double UpdateCycle::first_picture_share(int channel) const {
     if (plans_[channel].light == Light::glossy) return glossy;
     return (1 - glossy) *
            (plans_[channel].light == Light::direct ? kDirectShare : 1 - kDirectShare);
+}
+
+// Vertices that a channel's share of so many processor seconds can pay.
+double UpdateCycle::affordable(int channel, double seconds, std::uint32_t samples) const {
+    return seconds * first_picture_share(channel) /
+           (samples * static_cast<double>(gains_.seconds_a_sample[channel]));
 }
 
 // What samples cost in this scene on this machine, by a few vertices that the first picture needs
@@ -122,21 +134,18 @@ void UpdateCycle::start_channel(int channel, double seconds, ShadeWork& work) {
         evaluate(missing_in_view(cache_, mesh_front_, channel, 0), channel, fewest, work);
         return;
     }
-    const double share = seconds * first_picture_share(channel);
-    const auto affordable = [&](std::uint32_t samples) {
-        return share / (samples * static_cast<double>(gains_.seconds_a_sample[channel]));
-    };
     const std::uint32_t most = fewest * kMostFirstSamples;
+    const auto vertices = [&](std::uint32_t samples) {
+        return static_cast<std::size_t>(affordable(channel, seconds, samples));
+    };
     const StartLevel start =
-        choose_start_level(cache_, mesh_front_, channel, static_cast<std::size_t>(affordable(most)),
-                           static_cast<std::size_t>(affordable(fewest)));
+        choose_start_level(cache_, mesh_front_, channel, vertices(most), vertices(fewest));
     even_out(cache_, map_, mesh_front_, channel, start, static_cast<Cycle>(statistics_.cycles));
     const auto missing = missing_in_view(cache_, mesh_front_, channel, start.level);
     // More samples than the plan says where few vertices are needed, since noise is seen before
     // interpolation is.
     std::uint32_t samples = most;
-    while (samples > fewest && affordable(samples) < static_cast<double>(missing.size()))
-        samples /= 2;
+    while (samples > fewest && vertices(samples) < missing.size()) samples /= 2;
     evaluate(missing, channel, samples, work);
 }
 

@@ -104,12 +104,11 @@ UpdateCycle::UpdateCycle(RayCaster& rays, const MeshGraphs& graphs, SampleRender
         gains_.zero_is_doubtful[c] = plans_[c].zero_is_buried;
     }
     gains_.scale.irradiance = settings.aov == Aov::irradiance;
+    for (int c = 0; c < cache_.channels(); ++c) expected_.expect(rays.scene().objects.size(), c, 0);
 }
 
-void UpdateCycle::look_from(const View& view) {
-    if (view_ && view_->eye() != view.eye()) cache_.forget_glossy();
-    view_ = view;
-    stage_ = Stage::new_view;
+bool UpdateCycle::lacks_channel() const {
+    return !std::ranges::equal(plan_channels(settings_, rays_->scene()), plans_);
 }
 
 void UpdateCycle::run() {
@@ -137,6 +136,7 @@ void UpdateCycle::run() {
                 break;
             }
             // The view rests: outlines and textures deserve more rays now.
+            moving_ = false;
             make_map(ViewQuality::antialiased);
             restart_polish();
             start();
@@ -160,8 +160,10 @@ void UpdateCycle::shade(ShadeWork& work) {
     for (int c = 0; c < cache_.channels(); ++c) {
         const std::vector<VertexId> new_ones = evaluated_first(work, c);
         const auto buried_before = buried(cache_, work.vertices(c));
+        const std::vector<float> stale = stale_light(work, c);
         const double seconds =
             work.shade(cache_, *renderer_, c, static_cast<Cycle>(statistics_.cycles));
+        learn_change(work, c, stale);
         if (settings_.scheme == Scheme::best) {
             const auto suspects = mesh_front_.settle(cache_, new_ones, c, gains_);
             news_[c].insert(news_[c].end(), suspects.begin(), suspects.end());

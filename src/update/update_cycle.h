@@ -6,7 +6,9 @@
 #include "sample_selector/select_samples.h"
 #include "sample_selector/sum_tree.h"
 #include "scene/bsdf.h"
+#include "scene/edit.h"
 #include "shading_cache/age_out.h"
+#include "update/expected_change.h"
 #include "update/polish_means.h"
 #include "update/shade_work.h"
 #include "update/timings.h"
@@ -33,6 +35,7 @@ struct UpdateSettings {
     std::uint32_t indirect_samples = 400;
     double cycle_seconds = 0.05;          // the length that a cycle adjusts itself to
     double first_picture_seconds = 0.2;   // what the first cycle may spend on shading
+    double clean_up_seconds = 0.3;        // in which what an edit changes should be shaded again
     float cached_facets = kCachedFacets;  // as RayViewSettings has it
     // Cycles of a fixed size, by assumed costs instead of measured ones: the same bits on any
     // machine.
@@ -59,8 +62,18 @@ public:
                 OpenSides& open_sides, const UpdateSettings& settings);
 
     /// Looks from elsewhere, from the next cycle on. Diffuse shading stays: it does not depend on
-    /// the eye. Glossy shading starts anew if the eye has moved.
+    /// the eye. Glossy shading is stale if the eye has moved (5.1).
     void look_from(const View& view);
+
+    /// Edits were made since the last cycle, in order: their effects as effect_of() told them
+    /// before each. Rays, open sides and graphs have followed; `renderer`, of the scene as it is,
+    /// shades from now on. What they may have reached is shaded again, and what they cannot have
+    /// reached stays (5.2).
+    void scene_changed(std::span<const EditEffect> effects, SampleRenderer& renderer);
+
+    /// A material of the scene, as it is by now, shows light that this cycle has no channel for:
+    /// their number is fixed, and another cycle is to be made.
+    bool lacks_channel() const;
 
     /// One cycle. The first after look_from() ends with a picture that covers the whole view.
     void run();
@@ -71,6 +84,8 @@ public:
     const ShadingCache& cache() const { return cache_; }
     const IdMap& id_map() const { return map_; }
     const Statistics& statistics() const { return statistics_; }
+    /// Estimates of the scene before the last edits that wait for their turn.
+    std::size_t stale() const { return stale_; }
     /// Samples that the last cycle of the paper's scheme selected.
     const std::vector<SelectedPixel>& last_selection() const { return selection_; }
     const PictureScale& scale() const { return gains_.scale; }
@@ -97,11 +112,16 @@ private:
     void evaluate(std::span<const VertexId> vertices, int channel, std::uint32_t samples,
                   ShadeWork& work) const;
     std::vector<VertexId> evaluated_first(const ShadeWork& work, int channel) const;
+    double start_seconds() const;
     double first_picture_share(int channel) const;
     void refine();
     void refine_as_paper();
     void shade_or_subdivide(PatchId patch, ShadeWork& work);
     void age();
+    void lower_what_changes();
+    double affordable(int channel, double seconds, std::uint32_t samples) const;
+    std::vector<float> stale_light(const ShadeWork& work, int channel) const;
+    void learn_change(const ShadeWork& work, int channel, std::span<const float> before);
     void choose(ShadeWork& work);
     void spend_by_chance(ShadeWork& work);
     struct Choice {
@@ -137,6 +157,11 @@ private:
     bool environment_;  // there is one that shines
     std::optional<View> view_;
     enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
+    bool edited_ = false;       // since the last cycle, so that something may be stale
+    bool moving_ = false;       // the scene was, not the camera alone, before the last look
+    Cycle edited_at_ = 0;       // when it last was
+    std::size_t stale_ = 0;     // estimates, when they were counted last
+    ExpectedChange expected_;   // of these
     double outlines_from_ = 0;  // of statistics_.seconds: when outlines of this view are smoothed
 
     Rng rng_;

@@ -1,4 +1,4 @@
-#include "apps/make_renderer.h"
+#include "update/make_renderer.h"
 
 #include "sample_renderer/bidirectional_renderer.h"
 #include "sample_renderer/caustic_renderer.h"

@@ -1,0 +1,78 @@
+// Section 5: what the cycle makes of a scene and a camera that move.
+
+#include "update/lower_resolution.h"
+#include "update/outdate.h"
+#include "update/update_cycle.h"
+
+namespace chiaro {
+namespace {
+
+// Squared relative change from which on a coarser picture of what is now is worth more than a fine
+// one of what was.
+constexpr float kChanging = 0.1f;
+
+}  // namespace
+
+void UpdateCycle::look_from(const View& view) {
+    if (view_ && view_->eye() != view.eye() && cache_.has_glossy()) {
+        outdate_gloss(cache_, rays_->scene(), view_->eye(), view.eye(), least_light(gains_.scale),
+                      expected_, settings_.threads);
+        edited_ = true;
+    }
+    view_ = view;
+    stage_ = Stage::new_view;
+}
+
+void UpdateCycle::scene_changed(std::span<const EditEffect> effects, SampleRenderer& renderer) {
+    renderer_ = &renderer;
+    const SceneChange change = change_of(effects);
+    if (!change.any()) return;
+    cache_.follow_scene();
+    outdate(cache_, rays_->scene(), plans_, change, least_light(gains_.scale), expected_,
+            settings_.threads);
+    edited_ = moving_ = true;
+    if (stage_ != Stage::nothing) stage_ = Stage::new_view;
+}
+
+// What an edit has outdated shows what it showed until it is shaded again; where that would take
+// longer than the user wants to wait, coarser.
+void UpdateCycle::lower_what_changes() {
+    edited_ = false;
+    edited_at_ = static_cast<Cycle>(statistics_.cycles);
+    stale_ = 1;  // to be counted
+    if (settings_.scheme == Scheme::paper) return;
+    const double seconds = settings_.clean_up_seconds * threads_at_once();
+    for (int c = 0; c < cache_.channels(); ++c) {
+        std::vector<char> changing;
+        for (std::size_t o = 0; o < rays_->scene().objects.size(); ++o)
+            changing.push_back(expected_.relative2(static_cast<ObjectId>(o), c) > kChanging);
+        lower_resolution(cache_, c, changing,
+                         static_cast<std::size_t>(affordable(c, seconds, plans_[c].first_samples)));
+    }
+}
+
+// Luminance of what is stale and about to be shaded again; negative where nothing is.
+std::vector<float> UpdateCycle::stale_light(const ShadeWork& work, int channel) const {
+    std::vector<float> light;
+    if (stale_ == 0) return light;
+    for (const VertexId v : work.vertices(channel)) {
+        const Estimate* e = cache_.estimate(v, channel);
+        light.push_back(e && e->stale ? luminance(e->mean) : -1.0f);
+    }
+    return light;
+}
+
+void UpdateCycle::learn_change(const ShadeWork& work, int channel, std::span<const float> before) {
+    const LeastLight least = least_light(gains_.scale);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i] < 0) continue;
+        const VertexId v = work.vertices(channel)[i];
+        const Estimate& e = *cache_.estimate(v, channel);
+        const float miss = luminance(e.mean) - before[i];
+        const float noise = 2 * static_cast<float>(e.variance);  // the old one had its own
+        expected_.found(cache_.surface_point(v).object, channel,
+                        (miss * miss - noise) / light2(cache_, v, channel, least));
+    }
+}
+
+}  // namespace chiaro

@@ -1,0 +1,218 @@
+#include "update/outdate.h"
+
+#include "base/parallel.h"
+#include "sample_renderer/flat_mirrors.h"
+#include "scene/perceived_gloss.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chiaro {
+namespace {
+
+constexpr std::size_t kAtOnce = 4096;  // vertices that one thread judges
+
+// Squared changes that an edit lets expect, over the light's square, until it is known better. A
+// light that moves or is switched may change all; what moves in its way, a good part of direct
+// light, and little of what comes from all sides.
+constexpr float kByLights = 1;
+constexpr float kInTheWay = 0.25f;
+constexpr float kIndirectByLights = 0.25f;
+constexpr float kIndirectByObjects = 0.02f;
+
+float change_to_expect(Light light, const SceneChange& change) {
+    const bool indirect = light == Light::indirect;
+    if (change.lights) return indirect ? kIndirectByLights : kByLights;
+    if (light == Light::direct) return change.geometry ? kInTheWay : 0.0f;
+    return change.any() ? kIndirectByObjects : 0.0f;
+}
+
+// Mean squared change of gloss from which on it is seen anew, as if for the first time.
+constexpr float kTellsNothing = 0.5f;
+
+bool within(const Box& box, Vec3 p, float margin) {
+    return glm::all(glm::greaterThanEqual(p, box.low - margin)) &&
+           glm::all(glm::lessThanEqual(p, box.high + margin));
+}
+
+// Where a change may be felt.
+struct Reach {
+    const Scene& scene;
+    const SceneChange& change;
+    LightReach lights;
+    bool any_direct;  // direct light may have changed anywhere
+    float margin;
+
+    Reach(const Scene& s, const SceneChange& c)
+        : scene(s),
+          change(c),
+          lights(s),
+          any_direct(c.lights || c.passing || by_mirrors(s, c)),
+          margin(1e-3f * bounds(s).diagonal()) {}
+
+    // Lamps' light comes straight by way of mirrors too, which may be what moved.
+    static bool by_mirrors(const Scene& scene, const SceneChange& change) {
+        const bool lamps = std::ranges::any_of(scene.lights, &PunctualLight::lit);
+        return (change.geometry || change.materials) && lamps && !find_flat_mirrors(scene).empty();
+    }
+    bool in_place_of_moved(Vec3 p) const {
+        return std::ranges::any_of(change.boxes,
+                                   [&](const Box& box) { return within(box, p, margin); });
+    }
+    bool direct(const SurfacePoint& at, Vec3 p) const {
+        return any_direct || change.has_moved(at.object) ||
+               std::ranges::any_of(change.boxes,
+                                   [&](const Box& box) { return lights.may_cross(p, box); });
+    }
+};
+
+struct Judgement {
+    bool direct = false;  // its direct light may be another
+    bool close = false;   // on what moved, or where that was or is now
+};
+
+Judgement judge(const ShadingCache& cache, const Reach& reach, VertexId id) {
+    const SurfacePoint at = cache.surface_point(id);
+    const Vec3 p = surface_position(reach.scene, at);
+    return {reach.direct(at, p), reach.change.has_moved(at.object) || reach.in_place_of_moved(p)};
+}
+
+int first_glossy(const ShadingCache& cache) {
+    int c = 0;
+    while (cache.shading(c) != Shading::glossy) ++c;
+    return c;
+}
+
+// Squared change of what a surface shows, over its square, as the eye moves.
+float change_of_gloss(const ShadingCache& cache, const Scene& scene, VertexId id, Vec3 eye_before,
+                      Vec3 eye) {
+    // Of all the gloss there is, a sixth of a radian farther shows something else.
+    constexpr float kSharpness = 3;
+    const SurfacePoint at = cache.surface_point(id);
+    const Vec3 p = surface_position(scene, at);
+    const Vec3 before = safe_normalize(eye_before - p, Vec3(1, 0, 0));
+    const float angle = glm::length(before - safe_normalize(eye - p, before));
+    const float gloss = perceived_gloss(bsdf_at(scene, at, cache.on_front(id))).strength();
+    const float change = std::min(1.0f, kSharpness * std::max(1.0f, gloss) * angle);
+    return change * change;
+}
+
+}  // namespace
+
+LeastLight least_light(const PictureScale& scale) {
+    constexpr float kTenthOfMiddle = 0.04f;  // comparison_exposure() takes the median to 0.4
+    constexpr float kUsualAlbedo = 0.5f;
+    const float radiance = kTenthOfMiddle / scale.exposure;
+    return {scale.irradiance ? radiance : radiance * kPi / kUsualAlbedo, radiance};
+}
+
+float light2(const ShadingCache& cache, VertexId id, int channel, const LeastLight& least) {
+    const Shading shading = cache.shading(channel);
+    const float light = luminance(cache.shown_total(id, shading).value);
+    return light * light + least.of(shading) * least.of(shading);
+}
+
+void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPlan> plans,
+             const SceneChange& change, const LeastLight& least, ExpectedChange& expected,
+             int threads) {
+    for (int c = 0; c < cache.channels(); ++c)
+        expected.expect(scene.objects.size(), c, change_to_expect(plans[c].light, change));
+
+    const Reach reach(scene, change);
+    std::vector<Judgement> judged(cache.vertices().size());
+    parallel_for_ranges(threads, judged.size(), kAtOnce, [&](IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i)
+            judged[i] = judge(cache, reach, static_cast<VertexId>(i));
+    });
+
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+        const auto id = static_cast<VertexId>(i);
+        const bool geometry = change.geometry && judged[i].close;
+        if (cache.vertex(id).buried && (geometry || cache.dark(id))) {
+            cache.forget(id);
+            continue;
+        }
+        const ObjectId object = cache.surface_point(id).object;
+        for (int c = 0; c < cache.channels(); ++c) {
+            if (!cache.evaluated(id, c)) continue;
+            if (plans[c].light == Light::direct && !judged[i].direct) continue;
+            const float part = geometry ? kByLights : expected.relative2(object, c);
+            cache.outdate(id, c, part * light2(cache, id, c, least));
+        }
+    }
+}
+
+void outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec3 eye,
+                   const LeastLight& least, ExpectedChange& expected, int threads) {
+    if (!cache.has_glossy()) return;
+    const int glossy = first_glossy(cache);
+    std::vector<float> changes(cache.vertices().size(), 0.0f);
+    parallel_for_ranges(threads, changes.size(), kAtOnce, [&](IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i)
+            if (const auto id = static_cast<VertexId>(i); cache.evaluated(id, glossy))
+                changes[i] = change_of_gloss(cache, scene, id, eye_before, eye);
+    });
+
+    double sum = 0, count = 0;
+    for (const float change : changes) {
+        sum += change;
+        count += change > 0 ? 1 : 0;
+    }
+    if (count == 0) return;
+    const auto mean = static_cast<float>(sum / count);
+    for (int c = glossy; c < cache.channels(); ++c) expected.expect(scene.objects.size(), c, mean);
+    if (mean > kTellsNothing) {
+        cache.forget_glossy();
+        return;
+    }
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        if (changes[i] == 0) continue;
+        const auto id = static_cast<VertexId>(i);
+        const float most = light2(cache, id, glossy, least);
+        for (int c = glossy; c < cache.channels(); ++c) {
+            const Estimate* e = cache.estimate(id, c);
+            if (!e) continue;
+            const float before = e->stale ? static_cast<float>(e->variance) : 0.0f;
+            cache.outdate(id, c, std::min(most, before + changes[i] * most));
+        }
+    }
+}
+
+std::size_t reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
+                             const LeastLight& least, Cycle age, int threads) {
+    constexpr float kCyclesToDouble = 16;
+    constexpr float kWorthChanging = 1.3f;
+    const float waiting = 1 + static_cast<float>(age) / kCyclesToDouble;
+
+    const auto channels = static_cast<std::size_t>(cache.channels());
+    std::vector<float> errors(channels * cache.vertices().size(), 0.0f);
+    parallel_for_ranges(threads, cache.vertices().size(), kAtOnce, [&](IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            const auto id = static_cast<VertexId>(i);
+            if (!cache.evaluated(id)) continue;
+            for (std::size_t c = 0; c < channels; ++c) {
+                const auto channel = static_cast<int>(c);
+                const Estimate* e = cache.estimate(id, channel);
+                if (!e || !e->stale) continue;
+                const ObjectId object = cache.surface_point(id).object;
+                errors[channels * i + c] = waiting * expected.relative2(object, channel) *
+                                           light2(cache, id, channel, least);
+            }
+        }
+    });
+
+    std::size_t stale = 0;
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+        if (errors[k] == 0) continue;
+        ++stale;
+        const auto id = static_cast<VertexId>(k / channels);
+        const auto channel = static_cast<int>(k % channels);
+        const float before = cache.estimate(id, channel)->variance;
+        const float factor = errors[k] / std::max(before, 1e-30f);
+        if (factor > kWorthChanging || factor * kWorthChanging < 1)
+            cache.outdate(id, channel, errors[k]);
+    }
+    return stale;
+}
+
+}  // namespace chiaro

@@ -1,0 +1,47 @@
+// What an edit makes stale in the cache, as exactly as it can be known (design, section 5).
+#pragma once
+
+#include "sample_selector/priority_map.h"
+#include "scene/light_reach.h"
+#include "update/expected_change.h"
+#include "update/scene_change.h"
+#include "update/shade_work.h"
+
+namespace chiaro {
+
+/// Luminances that changes of darkness are measured by, a tenth of what a picture's middle tones
+/// need: irradiance [lux] and glossy radiance [cd/m2].
+struct LeastLight {
+    float irradiance = 0;
+    float glossy = 0;
+    float of(Shading shading) const { return shading == Shading::glossy ? glossy : irradiance; }
+};
+LeastLight least_light(const PictureScale& scale);
+
+/// What relative errors at a vertex are relative to, squared: all its light that adds up with the
+/// channel's, and the least.
+float light2(const ShadingCache& cache, VertexId vertex, int channel, const LeastLight& least);
+
+/// Makes stale what `change`, which the scene has behind it, may have reached, and tells `expected`
+/// of it.
+///
+/// Direct light is stale where lights changed, on what moved, and where a segment to a light
+/// crosses a place that something left or came to; elsewhere it stays. All other light is stale
+/// everywhere, since light goes round corners. What was buried or dark, and may not be any more, is
+/// forgotten.
+void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPlan> plans,
+             const SceneChange& change, const LeastLight& least, ExpectedChange& expected,
+             int threads);
+
+/// The eye moved: glossy light is stale, the more so the farther the eye has turned round a surface
+/// and the glossier that looks (5.1); forgotten where most shows something else.
+void outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec3 eye,
+                   const LeastLight& least, ExpectedChange& expected, int threads);
+
+/// Takes what was found meanwhile for what is stale still: each of these may be off by as much as
+/// others on its object were, and by more the longer it waits, so that all have their turn. `age`:
+/// cycles since the edit. Returns how many are stale.
+std::size_t reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
+                             const LeastLight& least, Cycle age, int threads);
+
+}  // namespace chiaro

@@ -1,0 +1,27 @@
+// What edits that were made between two cycles change together.
+#pragma once
+
+#include "scene/edit.h"
+
+#include <span>
+#include <vector>
+
+namespace chiaro {
+
+struct SceneChange {
+    bool lights = false;     // something shines otherwise or from elsewhere
+    bool geometry = false;   // an object moved, came or went, or lets rays pass otherwise
+    bool materials = false;  // a surface reflects otherwise
+    bool passing = false;    // a surface that stands lets rays pass otherwise: it may be anywhere
+    std::vector<Box> boxes;  // where something was, and where it is now (world space)
+    std::vector<ObjectId> moved;  // in order, each once
+
+    bool any() const { return lights || geometry || materials; }
+    bool has_moved(ObjectId object) const;
+};
+
+/// Boxes of many are united, so that there are at most kMostBoxes.
+SceneChange change_of(std::span<const EditEffect> effects);
+inline constexpr std::size_t kMostBoxes = 16;
+
+}  // namespace chiaro

@@ -1,0 +1,66 @@
+#include "update/session.h"
+
+#include "base/random.h"
+#include "update/scene_change.h"
+
+namespace chiaro {
+
+Session::Session(Scene scene, const Camera& camera, const SessionSettings& settings)
+    : settings_(settings),
+      scene_(std::move(scene)),
+      camera_(camera),
+      rays_(scene_, settings.update.threads, settings.curve_tolerance),
+      graphs_(scene_, coarser_levels(settings.update.scheme), settings.update.threads),
+      open_sides_(scene_) {
+    light_anew();
+    cycle_.emplace(rays_, graphs_, *renderer_, open_sides_, settings_.update);
+    cycle_->look_from(view());
+}
+
+Edit Session::apply(const Edit& edit) {
+    const EditEffect effect = effect_of(scene_, edit);
+    Edit inverse = chiaro::apply(scene_, camera_, edit);
+    follow(edit);
+    effects_.push_back(effect);
+    looks_elsewhere_ |= effect.camera;
+    return inverse;
+}
+
+// What must know of each edit at once.
+void Session::follow(const Edit& edit) {
+    if (const auto* moved = std::get_if<SetTransform>(&edit)) rays_.set_transform(moved->object);
+    if (const auto* shown = std::get_if<SetShown>(&edit)) rays_.set_shown(shown->object);
+    if (const auto* changed = std::get_if<SetMaterial>(&edit))
+        rays_.set_material(changed->material);
+    if (std::holds_alternative<AddObject>(edit)) {
+        rays_.add_objects();
+        open_sides_.add_objects(scene_);
+        graphs_.add_meshes(scene_, settings_.update.threads);
+    }
+}
+
+// Lists of lights and of what shines brightly, and what a renderer remembers, are of the scene as
+// it was.
+void Session::light_anew() {
+    renderer_.reset();
+    area_lights_.emplace(scene_);
+    renderer_ = make_renderer(settings_.renderer, scene_, rays_, *area_lights_, &open_sides_,
+                              settings_.update.threads, short_seed(settings_.update.seed));
+}
+
+void Session::run() {
+    if (!effects_.empty()) {
+        if (change_of(effects_).any()) light_anew();
+        if (cycle_->lacks_channel())
+            cycle_.emplace(rays_, graphs_, *renderer_, open_sides_, settings_.update)
+                .look_from(view());
+        else
+            cycle_->scene_changed(effects_, *renderer_);
+        effects_.clear();
+    }
+    if (looks_elsewhere_) cycle_->look_from(view());
+    looks_elsewhere_ = false;
+    cycle_->run();
+}
+
+}  // namespace chiaro
