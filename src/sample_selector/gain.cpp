@@ -102,10 +102,11 @@ float to_curve(const ShadingCache& cache, VertexId vertex, int channel, const Pi
     return to_curve(cache, channel, scale, reflectance, picture);
 }
 
-// What as many samples again cost; a stale estimate is worth few, but starts as a new one does.
-float seconds_of_more(const Estimate& e, int channel, const GainSettings& settings) {
+// What as many samples again cost, or those that take the place of stale ones.
+float seconds_of_more(const Estimate& e, int channel, std::uint32_t of_new,
+                      const GainSettings& settings) {
     const std::uint32_t samples =
-        e.stale ? std::max<std::uint32_t>(e.samples, settings.first_samples[channel]) : e.samples;
+        e.stale ? samples_of_stale(e, channel, of_new, settings) : e.samples;
     return static_cast<float>(samples) * settings.seconds_a_sample[channel];
 }
 
@@ -113,12 +114,19 @@ std::uint32_t samples_of_new(const ShadingCache& cache, std::span<const VertexId
                              int channel, const GainSettings& settings) {
     std::uint32_t fewest = 0;
     for (const VertexId vertex : around)
-        if (const Estimate* e = cache.estimate(vertex, channel))
+        if (const Estimate* e = cache.estimate(vertex, channel); e && !e->stale)
             fewest = fewest == 0 ? e->samples : std::min<std::uint32_t>(fewest, e->samples);
     return std::clamp(fewest, settings.first_samples[channel], kMostOfNew);
 }
 
 }  // namespace
+
+std::uint32_t samples_of_stale(const Estimate& stale, int channel, std::uint32_t of_new,
+                               const GainSettings& settings) {
+    constexpr std::uint32_t kTimes = 4;
+    const std::uint32_t least = std::max(of_new, kTimes * settings.first_samples[channel]);
+    return std::clamp(kTimes * stale.samples, least, std::max(least, kMostOfNew));
+}
 
 bool on_front(const ShadingCache& cache, PatchId id, int channel) {
     const Patch& patch = cache.patch(id);
@@ -154,6 +162,7 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
     const float slope = to_curve(cache, channel, settings.scale, patch.reflectance, picture);
 
     Gain result;
+    const std::uint32_t of_new = samples_of_new(cache, id, channel, settings);
     if (patch.fragment_count > 1 && patch.divisible()) {
         float seen2 =
             corners.error2(kSurplusNext) * slope * slope + settings.epsilon * settings.epsilon;
@@ -161,9 +170,7 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
         const bool across =
             patch.split == Split::quad_across_s || patch.split == Split::quad_across_t;
         const float points = across ? kNewAcross : kNewInFour;
-        const float cost = points *
-                           static_cast<float>(samples_of_new(cache, id, channel, settings)) *
-                           settings.seconds_a_sample[channel];
+        const float cost = points * static_cast<float>(of_new) * settings.seconds_a_sample[channel];
         result.refine = seen2 * pixels / cost;
     }
     for (int i = 0; i < corners.count; ++i) {
@@ -177,7 +184,7 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
                          corners.light * corners.light / (kDoubt * static_cast<float>(e->samples)));
         else if (cache.vertex(patch.corners[i]).buried)
             continue;
-        const float cost = seconds_of_more(*e, channel, settings);
+        const float cost = seconds_of_more(*e, channel, of_new, settings);
         // Half the variance would go at this corner; but it shows in all patches round it.
         const float drop = variance * slope * slope * pixels / cost;
         if (drop > result.resample) {
@@ -219,7 +226,8 @@ float gain_of_more(const ShadingCache& cache, VertexId vertex, int channel, floa
     const Estimate* e = cache.estimate(vertex, channel);
     if (!e || e->samples >= kMostSamples || cache.vertex(vertex).buried) return 0;
     const float slope = to_curve(cache, vertex, channel, settings.scale);
-    const float cost = seconds_of_more(*e, channel, settings);
+    const std::uint32_t of_new = samples_of_new(cache, vertex, channel, settings);
+    const float cost = seconds_of_more(*e, channel, of_new, settings);
     return e->variance * slope * slope * pixels / cost;
 }
 

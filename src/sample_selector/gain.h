@@ -31,10 +31,16 @@ struct Gain {
 /// True if `patch` belongs to the front of `channel`: its ancestors are refined and it is not.
 bool on_front(const ShadingCache& cache, PatchId patch, int channel);
 
-/// Samples with which a vertex within `patch` starts: as many as its corners have, within limits,
-/// for among well-known vertices a noisy one would do harm.
+/// Samples with which a vertex within `patch` starts: as many as its corners have that are not
+/// stale, within limits, for among well-known vertices a noisy one would do harm.
 std::uint32_t samples_of_new(const ShadingCache& cache, PatchId patch, int channel,
                              const GainSettings& settings);
+
+/// Samples that take the place of a stale estimate: for half of the error that it is worth, but not
+/// fewer than `of_new`, those that a new vertex there starts with; and never so few that one which
+/// finds no bright light by bad luck seems sure of it, among many that do.
+std::uint32_t samples_of_stale(const Estimate& stale, int channel, std::uint32_t of_new,
+                               const GainSettings& settings);
 
 /// Gain at a patch of the front. Zero where nothing of it is in view that the channel lights, and
 /// while a corner of it is not evaluated.

@@ -34,8 +34,8 @@ void UpdateCycle::scene_changed(std::span<const EditEffect> effects, SampleRende
     if (stage_ != Stage::nothing) stage_ = Stage::new_view;
 }
 
-// What an edit has outdated shows what it showed until it is shaded again; where that would take
-// longer than the user wants to wait, coarser.
+// What an edit has outdated shows what it showed until it is shaded again; but where most of that
+// is wrong by now, it is shaded at once, as fine as the user's time for it can pay.
 void UpdateCycle::lower_what_changes() {
     edited_ = false;
     edited_at_ = static_cast<Cycle>(statistics_.cycles);
@@ -47,7 +47,8 @@ void UpdateCycle::lower_what_changes() {
         for (std::size_t o = 0; o < rays_->scene().objects.size(); ++o)
             changing.push_back(expected_.relative2(static_cast<ObjectId>(o), c) > kChanging);
         lower_resolution(cache_, c, changing,
-                         static_cast<std::size_t>(affordable(c, seconds, plans_[c].first_samples)));
+                         static_cast<std::size_t>(
+                             affordable(c, seconds, kMostFirstSamples * plans_[c].first_samples)));
     }
 }
 

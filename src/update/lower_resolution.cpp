@@ -39,18 +39,18 @@ std::vector<char> stale_on(const ShadingCache& cache, int channel, std::span<con
     return stale;
 }
 
-// Patches none of whose children is refined, or as large on the screen as `least`.
-void lower_front(ShadingCache& cache, int channel, float least,
-                 const std::vector<char>& forgotten) {
+// No longer refines patches for stale vertices alone none of whose children is refined, or larger
+// on the screen than `least`.
+void lower_front(ShadingCache& cache, int channel, float least, const std::vector<char>& stale) {
     for (std::size_t i = cache.patches().size(); i-- > 0;) {  // children come behind their parents
         Patch& p = cache.patch(static_cast<PatchId>(i));
         if (!p.refined(channel)) continue;
         bool keep = false, any = false;
         for (int k = 0; k < child_count(p.split); ++k) {
             const Patch& child = cache.patch(offset_by(p.first_child, k));
-            keep |= child.refined(channel) || cache.pixels(child, channel) >= least;
+            keep |= child.refined(channel) || cache.pixels(child, channel) > least;
             for (int c = 0; c < child.corner_count(); ++c)
-                any |= forgotten[index_of(child.corners[c])] != 0;
+                any |= stale[index_of(child.corners[c])] != 0;
         }
         if (any && !keep) p.refined_channels &= static_cast<std::uint8_t>(~(1u << channel));
     }
@@ -66,24 +66,18 @@ std::size_t lower_resolution(ShadingCache& cache, int channel, std::span<const c
     std::vector<float> of_stale;
     for (std::size_t i = 0; i < pixels.size(); ++i)
         if (pixels[i] > 0 && stale[i]) of_stale.push_back(pixels[i]);
-    if (of_stale.size() <= most) return 0;
-    std::nth_element(of_stale.begin(), of_stale.begin() + static_cast<std::ptrdiff_t>(most),
-                     of_stale.end(), std::greater<>());
-    const float least = of_stale[most];
+    if (of_stale.size() > most) {
+        const auto last = of_stale.begin() + static_cast<std::ptrdiff_t>(most);
+        std::nth_element(of_stale.begin(), last, of_stale.end(), std::greater<>());
+        lower_front(cache, channel, *last, stale);
+    }
 
-    // What nothing predicts has nothing else to show.
-    std::vector<char> forgotten(pixels.size(), 0);
     std::size_t count = 0;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const auto id = static_cast<VertexId>(i);
-        if (pixels[i] > least || !stale[i] || cache.parents(id).empty()) continue;
-        forgotten[i] = 1;
+    for (std::size_t i = 0; i < stale.size(); ++i) {
+        if (!stale[i]) continue;
+        cache.forget(static_cast<VertexId>(i), static_cast<std::uint8_t>(1u << channel));
         ++count;
     }
-    lower_front(cache, channel, least, forgotten);
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-        if (forgotten[i])
-            cache.forget(static_cast<VertexId>(i), static_cast<std::uint8_t>(1u << channel));
     return count;
 }
 

@@ -182,7 +182,7 @@ std::size_t reconsider_stale(ShadingCache& cache, const ExpectedChange& expected
                              const LeastLight& least, Cycle age, int threads) {
     constexpr float kCyclesToDouble = 16;
     constexpr float kWorthChanging = 1.3f;
-    const float waiting = 1 + static_cast<float>(age) / kCyclesToDouble;
+    const float waiting = std::exp2(std::min(static_cast<float>(age) / kCyclesToDouble, 60.0f));
 
     const auto channels = static_cast<std::size_t>(cache.channels());
     std::vector<float> errors(channels * cache.vertices().size(), 0.0f);
@@ -195,8 +195,8 @@ std::size_t reconsider_stale(ShadingCache& cache, const ExpectedChange& expected
                 const Estimate* e = cache.estimate(id, channel);
                 if (!e || !e->stale) continue;
                 const ObjectId object = cache.surface_point(id).object;
-                errors[channels * i + c] = waiting * expected.relative2(object, channel) *
-                                           light2(cache, id, channel, least);
+                const float part = std::min(1.0f, waiting * expected.relative2(object, channel));
+                errors[channels * i + c] = part * light2(cache, id, channel, least);
             }
         }
     });

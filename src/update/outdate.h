@@ -39,8 +39,8 @@ void outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec
                    const LeastLight& least, ExpectedChange& expected, int threads);
 
 /// Takes what was found meanwhile for what is stale still: each of these may be off by as much as
-/// others on its object were, and by more the longer it waits, so that all have their turn. `age`:
-/// cycles since the edit. Returns how many are stale.
+/// others on its object were, and by more the longer it waits, so that all in view have their turn.
+/// `age`: cycles since the edit. Returns how many are stale.
 std::size_t reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
                              const LeastLight& least, Cycle age, int threads);
 

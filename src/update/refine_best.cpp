@@ -123,7 +123,8 @@ void UpdateCycle::spend_by_chance(ShadeWork& work) {
         return;
     }
     if (rng_.below(2) == 0) {
-        work.resample(cache_, patch.corners[below(patch.corner_count())], channel);
+        resample(patch.corners[below(patch.corner_count())], channel,
+                 samples_of_new(cache_, id, channel, gains_), work);
         touched_.emplace_back(id, channel);
     } else if (patch.fragment_count > 1 && patch.divisible()) {
         front_[channel].set(index_of(id), 0);
@@ -168,20 +169,27 @@ void UpdateCycle::spend_on(PatchId id, int channel, ShadeWork& work) {
     const Gain g = gain(cache_, id, channel, gains_);
     front_[channel].set(index_of(id), 0);
     if (g.resample > g.refine) {
-        work.resample(cache_, g.noisiest, channel);
+        resample(g.noisiest, channel, samples_of_new(cache_, id, channel, gains_), work);
         touched_.emplace_back(id, channel);
         return;
     }
     if (g.refine > 0) divide(id, channel, work);
 }
 
+void UpdateCycle::resample(VertexId id, int channel, std::uint32_t of_new, ShadeWork& work) const {
+    const Estimate* e = cache_.estimate(id, channel);
+    const bool stale = e && e->stale;
+    work.resample(cache_, id, channel, stale ? samples_of_stale(*e, channel, of_new, gains_) : 0);
+}
+
 // Evaluates a vertex of a mesh, or samples again one that speaks for others.
 void UpdateCycle::spend_on(VertexId id, int channel, ShadeWork& work) {
     mesh_front_.rest(id, channel);
+    const std::uint32_t of_new = samples_of_new(cache_, id, channel, gains_);
     if (cache_.evaluated(id, channel))
-        work.resample(cache_, id, channel);
+        resample(id, channel, of_new, work);
     else
-        work.evaluate(cache_, id, channel, samples_of_new(cache_, id, channel, gains_));
+        work.evaluate(cache_, id, channel, of_new);
     touched_vertices_.emplace_back(id, channel);
 }
 

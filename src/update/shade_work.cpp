@@ -22,12 +22,6 @@ std::uint32_t vertex_seed(const ShadingCache& cache, VertexId id, int channel,
     return hash32(h, static_cast<std::uint32_t>(channel));
 }
 
-// As many as it is worth, but not fewer than a vertex starts with.
-std::uint32_t samples_of_stale(const Estimate& e, const ChannelPlan& plan) {
-    const std::uint32_t whole = e.samples / kReplicates * kReplicates;
-    return std::clamp(whole, plan.first_samples, ShadeWork::kMostAtOnce);
-}
-
 }  // namespace
 
 ShadeWork::ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed, Vec3 eye)
@@ -42,11 +36,12 @@ bool ShadeWork::evaluate(const ShadingCache& cache, VertexId vertex, int channel
     return add(cache, vertex, channel, 0, samples);
 }
 
-bool ShadeWork::resample(const ShadingCache& cache, VertexId vertex, int channel) {
+bool ShadeWork::resample(const ShadingCache& cache, VertexId vertex, int channel,
+                         std::uint32_t of_stale) {
     const Estimate* e = cache.estimate(vertex, channel);
     if (!e) return evaluate(cache, vertex, channel);
-    if (e->stale)  // from the first one on: none is mixed with those of the scene before
-        return add(cache, vertex, channel, 0, samples_of_stale(*e, channels_[channel].plan));
+    // From the first one on: none is mixed with those of the scene before.
+    if (e->stale) return add(cache, vertex, channel, 0, of_stale);
     if (e->samples + kMostAtOnce > Estimate::kMostSamples) return false;
     return add(cache, vertex, channel, e->samples,
                std::min<std::uint32_t>(e->samples, kMostAtOnce));
@@ -139,7 +134,8 @@ ShadeWork ShadeWork::doubts(const ShadingCache& cache) const {
             for (int other = 0; other < count; ++other) dark &= dark_so_far(v, other);
             if (!dark) continue;
             for (int other = 0; other < count; ++other) more.evaluate(cache, v, other);
-            if (cache.estimate(v, c)->samples < kEnoughToBeDark) more.resample(cache, v, c);
+            if (cache.estimate(v, c)->samples < kEnoughToBeDark)
+                more.resample(cache, v, c, kEnoughToBeDark);
         }
     }
     return more;

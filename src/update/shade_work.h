@@ -35,8 +35,8 @@ public:
     bool evaluate(const ShadingCache& cache, VertexId vertex, int channel,
                   std::uint32_t samples = 0);
     /// Asks for as many samples again as an evaluated vertex has, at most kMostAtOnce, unless it
-    /// has all that are counted; of a stale one for as many that take the place of what it has.
-    bool resample(const ShadingCache& cache, VertexId vertex, int channel);
+    /// has all that are counted; of a stale one for `of_stale` that take the place of what it has.
+    bool resample(const ShadingCache& cache, VertexId vertex, int channel, std::uint32_t of_stale);
 
     std::size_t points() const;
     /// The vertices asked for in a channel.

@@ -13,10 +13,9 @@ namespace {
 constexpr double kFixedFirstPictureSeconds = 0.15;
 
 // Direct light's part of the first picture's time; glossy light's, where it lights the whole
-// picture; and how many times the planned samples a vertex of the first picture may have.
+// picture.
 constexpr double kDirectShare = 0.15;
 constexpr double kGlossyShare = 0.5;
-constexpr std::uint32_t kMostFirstSamples = 4;
 
 }  // namespace
 
@@ -74,7 +73,7 @@ void UpdateCycle::dig_out() {
 double UpdateCycle::start_seconds() const {
     if (settings_.fixed_size) return kFixedFirstPictureSeconds;
     return threads_at_once() *
-           (moving_ ? settings_.cycle_seconds : settings_.first_picture_seconds);
+           (moving_ ? settings_.clean_up_seconds : settings_.first_picture_seconds);
 }
 
 double UpdateCycle::first_picture_share(int channel) const {

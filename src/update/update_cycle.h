@@ -35,7 +35,7 @@ struct UpdateSettings {
     std::uint32_t indirect_samples = 400;
     double cycle_seconds = 0.05;          // the length that a cycle adjusts itself to
     double first_picture_seconds = 0.2;   // what the first cycle may spend on shading
-    double clean_up_seconds = 0.3;        // in which what an edit changes should be shaded again
+    double clean_up_seconds = 0.1;        // in which all that an edit changes is shaded again
     float cached_facets = kCachedFacets;  // as RayViewSettings has it
     // Cycles of a fixed size, by assumed costs instead of measured ones: the same bits on any
     // machine.
@@ -50,6 +50,9 @@ struct Statistics {
     double seconds = 0;                    // wall time of all cycles
     Timings timings;
 };
+
+/// How many times the planned samples a vertex of the first picture may have.
+inline constexpr std::uint32_t kMostFirstSamples = 4;
 
 /// The update loop's state. Owns the cache, the ID map and the front of refinement.
 ///
@@ -133,6 +136,7 @@ private:
     PatchId front_patch_at(std::uint32_t pixel, int channel);
     void spend_on(PatchId patch, int channel, ShadeWork& work);
     void spend_on(VertexId vertex, int channel, ShadeWork& work);
+    void resample(VertexId vertex, int channel, std::uint32_t of_new, ShadeWork& work) const;
     void shade(ShadeWork& work);
     float front_gain(PatchId patch, int channel) const;
     bool front_changed(PatchId patch) const;

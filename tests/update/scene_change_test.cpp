@@ -1,0 +1,69 @@
+// Several edits between two cycles as one change.
+#include "update/scene_change.h"
+
+#include <gtest/gtest.h>
+
+namespace chiaro {
+namespace {
+
+const Box kHere = {Vec3(0), Vec3(1)}, kThere = {Vec3(4), Vec3(5)};
+
+// What moved counts once, with all places where it was; what only shines otherwise is in nobody's
+// way.
+TEST(SceneChange, HoldsWhatMovedAndWhere) {
+    EditEffect moved, shone;
+    moved.geometry = true;
+    moved.object = ObjectId{3};
+    moved.before = kHere;
+    moved.after = kThere;
+    shone.lights = true;
+    shone.object = ObjectId{5};
+    shone.before = shone.after = kHere;
+    const std::vector<EditEffect> effects = {moved, shone, moved};
+    const SceneChange change = change_of(effects);
+    EXPECT_TRUE(change.lights);
+    EXPECT_TRUE(change.geometry);
+    EXPECT_FALSE(change.materials);
+    EXPECT_FALSE(change.passing);
+    EXPECT_EQ(change.moved, std::vector<ObjectId>{ObjectId{3}});
+    EXPECT_TRUE(change.has_moved(ObjectId{3}));
+    EXPECT_FALSE(change.has_moved(ObjectId{5}));
+    EXPECT_EQ(change.boxes.size(), 4u);
+}
+
+// A hundred objects that move are one box at most sixteen times as cheap to ask as theirs.
+TEST(SceneChange, ManyBoxesAreUnited) {
+    std::vector<EditEffect> effects;
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        EditEffect effect;
+        effect.geometry = true;
+        effect.object = ObjectId{i};
+        effect.after = Box{Vec3(static_cast<float>(i)), Vec3(static_cast<float>(i) + 1)};
+        effects.push_back(effect);
+    }
+    const SceneChange change = change_of(effects);
+    ASSERT_EQ(change.boxes.size(), 1u);
+    EXPECT_EQ(change.boxes[0].low, Vec3(0));
+    EXPECT_EQ(change.boxes[0].high, Vec3(100));
+    EXPECT_EQ(change.moved.size(), 100u);
+}
+
+// A camera that moves changes nothing in the scene.
+TEST(SceneChange, ACameraChangesNothing) {
+    EditEffect effect;
+    effect.camera = true;
+    EXPECT_FALSE(change_of({&effect, 1}).any());
+}
+
+// A material that lets rays pass otherwise may be anywhere.
+TEST(SceneChange, AMaterialMayBeAnywhere) {
+    EditEffect effect;
+    effect.material = MaterialId{0};
+    EXPECT_TRUE(change_of({&effect, 1}).materials);
+    EXPECT_FALSE(change_of({&effect, 1}).passing);
+    effect.geometry = true;
+    EXPECT_TRUE(change_of({&effect, 1}).passing);
+}
+
+}  // namespace
+}  // namespace chiaro
