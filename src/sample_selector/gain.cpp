@@ -189,7 +189,7 @@ float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, flo
     const Parents parents = cache.parents(vertex);
     const float cost = static_cast<float>(samples_of_new(cache, vertex, channel, settings)) *
                        settings.seconds_a_sample[channel];
-    if (cache.vertex(vertex).hollow) return kBlack * kBlack * pixels / cost;
+    if (cache.hollow(vertex, cache.shading(channel))) return kBlack * kBlack * pixels / cost;
 
     float known = 0;
     for (std::size_t i = 0; i < parents.size(); ++i)

@@ -69,7 +69,6 @@ struct CacheVertex {
     std::uint32_t of_mesh : 1 = 0;  // a corner of the mesh, not made by dividing patches
     std::uint32_t exposed : 1 = 0;  // it was seen not to be buried, whatever rays met
     std::uint32_t buried : 1 = 0;  // most rays from it met the inside of a solid: it knows no light
-    std::uint32_t hollow : 1 = 0;  // no parent does either: it leaves the interpolation
     Vec2 uv = Vec2(0);  // where it is sampled: pulled in from the patch's border by 0.2 %
 
     void set_surface_side(std::uint32_t side) {

@@ -30,7 +30,8 @@ struct Channels {
 /// What channels hold.
 enum class Shading { irradiance, glossy };
 
-/// A value of one channel, and what it weighs in an interpolation: 0 at a hollow vertex, else 1.
+/// A value of one channel, and what it weighs in an interpolation: 0 where the vertex is hollow,
+/// else 1.
 struct Shown {
     Rgb value;
     float weight;
@@ -153,6 +154,14 @@ public:
     bool dark(VertexId vertex) const;
     /// A vertex that was taken for buried is in view: its estimates count after all, and for good.
     void expose(VertexId vertex);
+    /// Whether a part of what that kind of light comes to at a vertex is not known: it is buried or
+    /// was not evaluated in all channels of that kind, and nor can its parents predict them, all of
+    /// which are hollow too. It leaves the interpolation, as half of its light would be a dark
+    /// spot.
+    bool hollow(VertexId vertex, Shading shading) const {
+        const Notes& notes = notes_[index_of(vertex)];
+        return shading == Shading::glossy ? notes.hollow_in_gloss : notes.hollow;
+    }
     /// Corners of a patch that are buried.
     int buried_corners(const Patch& patch) const;
 
@@ -189,11 +198,18 @@ public:
 
 private:
     struct MeshPlace;
+    static constexpr std::uint8_t kCoarsestLevel = 15;
     struct Notes {  // on a vertex
-        std::uint8_t level : 6 = 0;
+        std::uint8_t level : 4 = 0;
         std::uint8_t of_root : 1 = 0;
         std::uint8_t relocated : 1 = 0;
+        std::uint8_t hollow : 1 = 0;
+        std::uint8_t hollow_in_gloss : 1 = 0;
     };
+    struct ChannelRange {
+        int first, end;
+    };
+    ChannelRange channels_of(Shading shading) const;
     MeshPlace mesh_place(std::uint32_t surface_side) const;
     VertexId mesh_vertex(const MeshPlace& place, MeshVertexId vertex, MeshCorner sampled_at);
     void put(VertexId vertex, std::uint32_t surface_side, Vec2 uv);
@@ -205,7 +221,9 @@ private:
     VertexId add_vertex(const CacheVertex& vertex);
     VertexId add_vertex(CacheVertex vertex, const ParentSet& parents);
     Split choose_split(PatchId leaf) const;
+    bool tells(VertexId vertex, int channel) const;
     std::optional<Rgb> predicted(VertexId vertex, int channel) const;
+    void resolve_hollow(VertexId vertex, Shading shading);
     void resolve_hollow(VertexId vertex);
     float first_surplus(VertexId vertex, int channel, Rgb mean, float variance) const;
     void note_change(VertexId vertex, int channel);
