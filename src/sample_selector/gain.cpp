@@ -33,6 +33,9 @@ constexpr float kSurplusOfMesh = 0.5f;
 // parents cannot know what is small (window blinds, gaps).
 constexpr float kUnproven = 0.02f;
 
+// The same at a corner of a patch of more than kMostToldByLevels fragments.
+constexpr float kUnprovenAlone = 0.1f;
+
 // The part of its parents that is to be evaluated before a vertex of a mesh is: not all, as some
 // may be hidden, and are worth next to nothing themselves.
 constexpr float kEnoughKnown = 0.5f;
@@ -77,7 +80,7 @@ struct Survey {
 
     // Squared error, in light, to expect between them, if surplus goes on by that factor.
     float error2(float surplus_next) const {
-        const float spread = high - low;
+        const float spread = std::max(0.0f, high - low);  // of nothing: none
         float sum = surplus_next * surplus_next * surplus2 +
                     kRangeNext * kRangeNext * std::max(0.0f, spread * spread - 9 * variance);
         if (buried > 0 && buried < count) sum += kContact * kContact * light * light;
@@ -113,6 +116,10 @@ std::uint32_t samples_of_new(const ShadingCache& cache, std::span<const VertexId
 
 }  // namespace
 
+bool told_by_levels(const Patch& patch) {
+    return patch.fragment_count <= kMostToldByLevels;
+}
+
 bool on_front(const ShadingCache& cache, PatchId id, int channel) {
     const Patch& patch = cache.patch(id);
     if (patch.refined(channel)) return false;
@@ -139,7 +146,7 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
     const float part = 1.0f / static_cast<float>(patch.corner_count());
     for (int i = 0; i < patch.corner_count(); ++i) {
         const VertexId corner = patch.corners[i];
-        const bool alone = cache.vertex(corner).of_mesh && patch.fragment_count > kMostToldByLevels;
+        const bool alone = cache.vertex(corner).of_mesh && !told_by_levels(patch);
         corners.add(cache, corner, channel, part,
                     alone ? cache.surplus_of_unknown(corner, channel) : 0);
         picture += part * settings.scale.shown(cache, patch, patch.corners[i]);
@@ -184,25 +191,26 @@ std::uint32_t samples_of_new(const ShadingCache& cache, VertexId vertex, int cha
     return samples_of_new(cache, cache.parents(vertex).vertices(), channel, settings);
 }
 
-float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, float pixels,
+float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, const OnVertex& on_it,
                     const GainSettings& settings) {
     const Parents parents = cache.parents(vertex);
     const float cost = static_cast<float>(samples_of_new(cache, vertex, channel, settings)) *
                        settings.seconds_a_sample[channel];
-    if (cache.hollow(vertex, cache.shading(channel))) return kBlack * kBlack * pixels / cost;
+    if (cache.hollow(vertex, cache.shading(channel))) return kBlack * kBlack * on_it.pixels / cost;
 
     float known = 0;
     for (std::size_t i = 0; i < parents.size(); ++i)
         if (cache.evaluated(parents[i], channel)) known += parents.weight(i);
-    if (known < kEnoughKnown) return 0;
+    if (known < kEnoughKnown && on_it.told_by_levels) return 0;
 
     Survey survey;
     for (std::size_t i = 0; i < parents.size(); ++i)
         if (cache.evaluated(parents[i], channel))
             survey.add(cache, parents[i], channel, parents.weight(i) / known);
     const float slope = to_curve(cache, vertex, channel, settings.scale);
-    const float error2 = survey.error2(kSurplusOfMesh) * slope * slope + kUnproven * kUnproven;
-    return error2 * pixels / cost;
+    const float unproven = on_it.told_by_levels ? kUnproven : kUnprovenAlone;
+    const float error2 = survey.error2(kSurplusOfMesh) * slope * slope + unproven * unproven;
+    return error2 * on_it.pixels / cost;
 }
 
 float gain_of_more(const ShadingCache& cache, VertexId vertex, int channel, float pixels,

@@ -76,6 +76,7 @@ void MeshFront::weigh(const ShadingCache& cache) {
                 own_[kind][place] += part * pixels[kind];
                 if (pixels[kind] > 0) in_view_[place] |= static_cast<std::uint8_t>(1 << kind);
             }
+            if (!told_by_levels(patch)) in_view_[place] |= kByLargePatch;
         }
     }
 
@@ -84,7 +85,7 @@ void MeshFront::weigh(const ShadingCache& cache) {
         const Parents parents = cache.parents(vertices_[place]);
         for (std::size_t i = 0; i < parents.size(); ++i) {
             const std::size_t parent = place_of(parents[i]);
-            in_view_[parent] |= in_view_[place];
+            in_view_[parent] |= static_cast<std::uint8_t>(in_view_[place] & ~kByLargePatch);
             for (int c = 0; c < cache.channels(); ++c)
                 if (!cache.evaluated(vertices_[place], c))
                     spoken_for_[c][parent] += parents.weight(i) * pixels(cache, place, c);
@@ -180,7 +181,8 @@ float MeshFront::gain_at(const ShadingCache& cache, std::size_t place, int chann
         pixels(cache, place, channel) + (evaluated ? waiting(cache, place, channel) : 0);
     if (!(seen > 0)) return 0;
     return evaluated ? gain_of_more(cache, id, channel, seen, settings)
-                     : gain_of_first(cache, id, channel, seen, settings);
+                     : gain_of_first(cache, id, channel,
+                                     {seen, (in_view_[place] & kByLargePatch) == 0}, settings);
 }
 
 void MeshFront::reckon(const ShadingCache& cache, const GainSettings& settings, int threads) {
