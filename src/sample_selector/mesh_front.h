@@ -102,9 +102,7 @@ private:
     std::vector<std::uint32_t> places_;  // by VertexId up to the last: in vertices_, or kNowhere
     Lists<std::uint32_t> children_;      // places
     Lists<PatchId> roots_;
-    std::vector<std::uint64_t> marked_;   // a bit a place, for carry()
-    std::vector<std::uint32_t> carried_;  // places in order, for carry(),
-    std::vector<float> carried_gains_;    // and what they gain
+    std::vector<std::uint64_t> marked_;  // a bit a place, for carry()
     std::vector<std::uint8_t> levels_;
     static constexpr std::uint8_t kByLargePatch = 4;
     std::vector<std::uint8_t> in_view_;           // bit: Shading; kByLargePatch

@@ -8,6 +8,7 @@
 #include "shading_cache/estimate_table.h"
 #include "shading_cache/mesh_graph.h"
 #include "shading_cache/patch.h"
+#include "shading_cache/shown_values.h"
 
 #include <optional>
 #include <span>
@@ -75,11 +76,12 @@ public:
     /// Gives up what was collapsed and moves the rest together, in order. All ids change.
     void pack();
 
-    /// What a vertex's values are predicted from. Valid until vertices are added.
+    /// What a vertex's values are predicted from. Valid until vertices or patches are added.
     Parents parents(VertexId vertex) const {
         const CacheVertex& v = this->vertex(vertex);
         if (v.halves_edge()) return {v.ends, Parents::kHalves.data()};
         if (v.ends[0] == VertexId::none) return {};
+        if (!v.of_mesh) return {patches_[index_of(v.ends[0])].corners, Parents::kQuarters.data()};
         return parents_of(parent_sets_[index_of(v.ends[0])]);
     }
 
@@ -230,7 +232,8 @@ private:
     void resolve_vertex(VertexId vertex, int channel);
     void resolve_vertex(VertexId vertex);
     void show(VertexId vertex, int channel, Rgb value);
-    void pack_parents(const std::vector<char>& vertex_kept, std::span<const VertexId> new_vertex);
+    void pack_parents(const std::vector<char>& vertex_kept, std::span<const VertexId> new_vertex,
+                      std::span<const PatchId> new_patch);
     SurfacePoint place(std::uint32_t surface_side, Vec2 uv) const;
 
     static constexpr std::size_t kAtOnce = 8;  // roots come by the view: append(),
@@ -247,13 +250,13 @@ private:
     std::vector<VertexId> mesh_vertices_;  // 2 x vertex + (back ? 1 : 0); none until first needed
     std::vector<Patch> patches_;
     std::vector<CacheVertex> vertices_;
-    std::vector<ParentSet> parent_sets_;  // of the vertices that have more than an edge's ends
+    std::vector<ParentSet> parent_sets_;  // of vertices of meshes that have parents
     std::vector<Notes> notes_;            // by vertex
     EdgeTable edges_;
 
     EstimateTable estimates_;
-    std::vector<std::vector<std::uint32_t>> shown_;  // a channel: RGB9E5 by vertex, in shown_unit_
-    float shown_unit_ = 0x1p-60f;  // a power of two; raised when something brighter comes
+    std::vector<ShownValues> shown_;  // by channel, in shown_unit_
+    float shown_unit_ = 0x1p-60f;     // a power of two; raised when something brighter comes
 
     std::vector<std::pair<VertexId, int>> forgotten_;  // take_forgotten()
 

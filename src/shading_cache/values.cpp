@@ -147,7 +147,7 @@ int ShadingCache::buried_corners(const Patch& patch) const {
 }
 
 Shown ShadingCache::shown(VertexId id, int channel) const {
-    return {unpack_rgb9e5(shown_[channel][index_of(id)]) * shown_unit_,
+    return {unpack_rgb9e5(shown_[channel].of(id)) * shown_unit_,
             hollow(id, shading(channel)) ? 0.0f : 1.0f};
 }
 
@@ -166,8 +166,7 @@ Shown ShadingCache::shown_total(VertexId id, Shading shading) const {
 void ShadingCache::forget_glossy() {
     const auto glossy = static_cast<std::uint8_t>(kAllChannels << irradiance_channels_);
     for (Patch& patch : patches_) patch.refined_channels &= static_cast<std::uint8_t>(~glossy);
-    for (int c = irradiance_channels_; c < channels(); ++c)
-        std::fill(shown_[c].begin(), shown_[c].end(), 0u);
+    for (int c = irradiance_channels_; c < channels(); ++c) shown_[c].clear_values();
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
         estimates_.forget(static_cast<VertexId>(i), glossy);
         resolve_hollow(static_cast<VertexId>(i));
@@ -189,7 +188,7 @@ std::optional<Rgb> ShadingCache::predicted(VertexId id, int channel) const {
     for (std::size_t i = 0; i < parents.size(); ++i) {
         if (!tells(parents[i], channel)) continue;
         const int w = parents.whole_weight(i);
-        sum += static_cast<float>(w) * unpack_rgb9e5(shown_[channel][index_of(parents[i])]);
+        sum += static_cast<float>(w) * unpack_rgb9e5(shown_[channel].of(parents[i]));
         weight += w;
     }
     if (weight == 0) return std::nullopt;
@@ -210,15 +209,14 @@ void ShadingCache::show(VertexId id, int channel, Rgb value) {
     if (max_component(value) > kMostUnits * shown_unit_) {
         const float unit =
             std::exp2(std::ceil(std::log2(max_component(value) / (kMostUnits * kRoom))));
-        for (auto& array : shown_)
-            for (std::uint32_t& bits : array)
+        for (ShownValues& shown : shown_)
+            for (std::uint32_t& bits : shown.values())
                 bits = pack_rgb9e5(unpack_rgb9e5(bits) * (shown_unit_ / unit));
         shown_unit_ = unit;
     }
-    std::uint32_t& bits = shown_[channel][index_of(id)];
-    const std::uint32_t new_bits = pack_rgb9e5(value / shown_unit_);
-    if (bits == new_bits) return;
-    bits = new_bits;
+    const std::uint32_t bits = pack_rgb9e5(value / shown_unit_);
+    if (bits == shown_[channel].of(id)) return;
+    shown_[channel].set(id, bits);
     note_change(id, channel);
 }
 
@@ -264,11 +262,10 @@ void ShadingCache::resolve() {
 
 bool ShadingCache::resolve(VertexId id, int channel) {
     const bool was_hollow = hollow(id, shading(channel));
-    const std::uint32_t shown_before = shown_[channel][index_of(id)];
+    const std::uint32_t shown_before = shown_[channel].of(id);
     resolve_hollow(id);
     resolve_vertex(id, channel);
-    return was_hollow != hollow(id, shading(channel)) ||
-           shown_before != shown_[channel][index_of(id)];
+    return was_hollow != hollow(id, shading(channel)) || shown_before != shown_[channel].of(id);
 }
 
 void ShadingCache::forget_changes() {
