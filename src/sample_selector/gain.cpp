@@ -33,7 +33,8 @@ constexpr float kSurplusOfMesh = 0.5f;
 // parents cannot know what is small (window blinds, gaps).
 constexpr float kUnproven = 0.02f;
 
-// The same at a corner of a patch of more than kMostToldByLevels fragments.
+// The same at a corner of a patch of more than kMostToldByLevels fragments, but for gloss: few
+// samples of that are farther off than levels are.
 constexpr float kUnprovenAlone = 0.1f;
 
 // The part of its parents that is to be evaluated before a vertex of a mesh is: not all, as some
@@ -208,7 +209,8 @@ float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, con
         if (cache.evaluated(parents[i], channel))
             survey.add(cache, parents[i], channel, parents.weight(i) / known);
     const float slope = to_curve(cache, vertex, channel, settings.scale);
-    const float unproven = on_it.told_by_levels ? kUnproven : kUnprovenAlone;
+    const bool alone = !on_it.told_by_levels && cache.shading(channel) == Shading::irradiance;
+    const float unproven = alone ? kUnprovenAlone : kUnproven;
     const float error2 = survey.error2(kSurplusOfMesh) * slope * slope + unproven * unproven;
     return error2 * on_it.pixels / cost;
 }
