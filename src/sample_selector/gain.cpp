@@ -33,6 +33,10 @@ constexpr float kSurplusOfMesh = 0.5f;
 // parents cannot know what is small (window blinds, gaps).
 constexpr float kUnproven = 0.02f;
 
+// The same at a corner of a patch of more than kMostToldByLevels fragments, but for gloss: few
+// samples of that are farther off than levels are.
+constexpr float kUnprovenAlone = 0.1f;
+
 // The part of its parents that is to be evaluated before a vertex of a mesh is: not all, as some
 // may be hidden, and are worth next to nothing themselves.
 constexpr float kEnoughKnown = 0.5f;
@@ -77,7 +81,7 @@ struct Survey {
 
     // Squared error, in light, to expect between them, if surplus goes on by that factor.
     float error2(float surplus_next) const {
-        const float spread = high - low;
+        const float spread = std::max(0.0f, high - low);  // of nothing: none
         float sum = surplus_next * surplus_next * surplus2 +
                     kRangeNext * kRangeNext * std::max(0.0f, spread * spread - 9 * variance);
         if (buried > 0 && buried < count) sum += kContact * kContact * light * light;
@@ -100,6 +104,18 @@ float to_curve(const ShadingCache& cache, VertexId vertex, int channel, const Pi
         scale.of(reflectance) * luminance(cache.shown_total(vertex).value) +
         scale.exposure * luminance(cache.shown_total(vertex, Shading::glossy).value);
     return to_curve(cache, channel, scale, reflectance, picture);
+}
+
+// Gain of evaluating a patch's midpoints, a pixel.
+float gain_of_refining(const Survey& corners, const Patch& patch, float slope, int channel,
+                       std::uint32_t of_new, const GainSettings& settings) {
+    if (patch.fragment_count <= 1 || !patch.divisible()) return 0;
+    float seen2 =
+        corners.error2(kSurplusNext) * slope * slope + settings.epsilon * settings.epsilon;
+    if (corners.buried + 1 >= corners.count) seen2 += kUnseen * kUnseen;
+    const bool across = patch.split == Split::quad_across_s || patch.split == Split::quad_across_t;
+    const float points = across ? kNewAcross : kNewInFour;
+    return seen2 / (points * static_cast<float>(of_new) * settings.seconds_a_sample[channel]);
 }
 
 // What as many samples again cost, or those that take the place of stale ones.
@@ -128,6 +144,10 @@ std::uint32_t samples_of_stale(const Estimate& stale, int channel, std::uint32_t
     return std::clamp(kTimes * stale.samples, least, std::max(least, kMostOfNew));
 }
 
+bool told_by_levels(const Patch& patch) {
+    return patch.fragment_count <= kMostToldByLevels;
+}
+
 bool on_front(const ShadingCache& cache, PatchId id, int channel) {
     const Patch& patch = cache.patch(id);
     if (patch.refined(channel)) return false;
@@ -154,7 +174,7 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
     const float part = 1.0f / static_cast<float>(patch.corner_count());
     for (int i = 0; i < patch.corner_count(); ++i) {
         const VertexId corner = patch.corners[i];
-        const bool alone = cache.vertex(corner).of_mesh && patch.fragment_count > kMostToldByLevels;
+        const bool alone = cache.vertex(corner).of_mesh && !told_by_levels(patch);
         corners.add(cache, corner, channel, part,
                     alone ? cache.surplus_of_unknown(corner, channel) : 0);
         picture += part * settings.scale.shown(cache, patch, patch.corners[i]);
@@ -163,34 +183,32 @@ Gain gain(const ShadingCache& cache, PatchId id, int channel, const GainSettings
 
     Gain result;
     const std::uint32_t of_new = samples_of_new(cache, id, channel, settings);
-    if (patch.fragment_count > 1 && patch.divisible()) {
-        float seen2 =
-            corners.error2(kSurplusNext) * slope * slope + settings.epsilon * settings.epsilon;
-        if (corners.buried + 1 >= corners.count) seen2 += kUnseen * kUnseen;
-        const bool across =
-            patch.split == Split::quad_across_s || patch.split == Split::quad_across_t;
-        const float points = across ? kNewAcross : kNewInFour;
-        const float cost = points * static_cast<float>(of_new) * settings.seconds_a_sample[channel];
-        result.refine = seen2 * pixels / cost;
-    }
+    result.refine = gain_of_refining(corners, patch, slope, channel, of_new, settings) * pixels;
+    bool any_stale = false;
     for (int i = 0; i < corners.count; ++i) {
         const Estimate* e = cache.estimate(patch.corners[i], channel);
         if (!e || e->samples >= kMostSamples) continue;
-        float variance = e->variance;
-        if (settings.zero_is_doubtful[channel] && max_component(e->mean) == 0)
+        const bool doubtful = settings.zero_is_doubtful[channel] && max_component(e->mean) == 0;
+        if (cache.vertex(patch.corners[i]).buried && !doubtful) continue;
+        float variance = doubtful && !e->stale ? 0.0f : static_cast<float>(e->variance);
+        if (doubtful)
             // As if one sample in this many found what lights the patch's other corners.
-            variance =
-                std::max(e->stale ? variance : 0.0f,
-                         corners.light * corners.light / (kDoubt * static_cast<float>(e->samples)));
-        else if (cache.vertex(patch.corners[i]).buried)
-            continue;
+            variance = std::max(variance, corners.light * corners.light /
+                                              (kDoubt * static_cast<float>(e->samples)));
         const float cost = seconds_of_more(*e, channel, of_new, settings);
         // Half the variance would go at this corner; but it shows in all patches round it.
         const float drop = variance * slope * slope * pixels / cost;
-        if (drop > result.resample) {
+        if (any_stale && !e->stale) continue;
+        if (drop > result.resample || (e->stale && !any_stale)) {
             result.resample = drop;
             result.noisiest = patch.corners[i];
         }
+        any_stale |= e->stale;
+    }
+    // A difference between what is and what was tells nothing of what lies between.
+    if (any_stale) {
+        result.resample = result.best();
+        result.refine = 0;
     }
     return result;
 }
@@ -200,25 +218,27 @@ std::uint32_t samples_of_new(const ShadingCache& cache, VertexId vertex, int cha
     return samples_of_new(cache, cache.parents(vertex).vertices(), channel, settings);
 }
 
-float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, float pixels,
+float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, const OnVertex& on_it,
                     const GainSettings& settings) {
     const Parents parents = cache.parents(vertex);
     const float cost = static_cast<float>(samples_of_new(cache, vertex, channel, settings)) *
                        settings.seconds_a_sample[channel];
-    if (cache.vertex(vertex).hollow) return kBlack * kBlack * pixels / cost;
+    if (cache.hollow(vertex, cache.shading(channel))) return kBlack * kBlack * on_it.pixels / cost;
 
     float known = 0;
     for (std::size_t i = 0; i < parents.size(); ++i)
         if (cache.evaluated(parents[i], channel)) known += parents.weight(i);
-    if (known < kEnoughKnown) return 0;
+    if (known < kEnoughKnown && on_it.told_by_levels) return 0;
 
     Survey survey;
     for (std::size_t i = 0; i < parents.size(); ++i)
         if (cache.evaluated(parents[i], channel))
             survey.add(cache, parents[i], channel, parents.weight(i) / known);
     const float slope = to_curve(cache, vertex, channel, settings.scale);
-    const float error2 = survey.error2(kSurplusOfMesh) * slope * slope + kUnproven * kUnproven;
-    return error2 * pixels / cost;
+    const bool alone = !on_it.told_by_levels && cache.shading(channel) == Shading::irradiance;
+    const float unproven = alone ? kUnprovenAlone : kUnproven;
+    const float error2 = survey.error2(kSurplusOfMesh) * slope * slope + unproven * unproven;
+    return error2 * on_it.pixels / cost;
 }
 
 float gain_of_more(const ShadingCache& cache, VertexId vertex, int channel, float pixels,

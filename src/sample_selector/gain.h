@@ -54,10 +54,20 @@ Gain gain(const ShadingCache& cache, PatchId patch, int channel, const GainSetti
 std::uint32_t samples_of_new(const ShadingCache& cache, VertexId vertex, int channel,
                              const GainSettings& settings);
 
-/// Gain of evaluating a vertex of the mesh on which `pixels` weigh: what its parents' surplus and
-/// range predict. Zero while less than half of them is evaluated, as coarse ones go first, unless
-/// it is hollow.
-float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, float pixels,
+/// What hangs on a vertex of the mesh in a view.
+struct OnVertex {
+    float pixels = 0;
+    bool told_by_levels = true;  // no patch round it is large
+};
+
+/// Whether coarser levels tell of the corners of a root patch in view: these are no farther than it
+/// is wide unless it covers few pixels.
+bool told_by_levels(const Patch& patch);
+
+/// Gain of evaluating a vertex of the mesh: what its parents' surplus and range predict, and more
+/// where levels do not tell. Zero while less than half of its parents is evaluated, as coarse ones
+/// go first, unless it is hollow or levels do not tell.
+float gain_of_first(const ShadingCache& cache, VertexId vertex, int channel, const OnVertex& on_it,
                     const GainSettings& settings);
 
 /// Gain of as many samples again at an evaluated vertex of the mesh that speaks for `pixels`.

@@ -18,9 +18,14 @@ void MeshFront::attach(const ShadingCache& cache) {
     levels_.clear();
     gains_.clear();
     places_.clear();
+    const auto of_mesh = [](const CacheVertex& v) { return v.of_mesh != 0; };
+    const auto count = std::ranges::count_if(cache.vertices(), of_mesh);
+    vertices_.reserve(static_cast<std::size_t>(count));
+    levels_.reserve(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < cache.vertices().size(); ++i) {
-        if (!cache.vertices()[i].of_mesh) continue;
+        if (!of_mesh(cache.vertices()[i])) continue;
         const auto id = static_cast<VertexId>(i);
+        if (i >= places_.capacity()) places_.reserve(i + i / 16 + 64);
         places_.resize(i + 1, kNowhere);
         places_[i] = static_cast<std::uint32_t>(vertices_.size());
         vertices_.push_back(id);
@@ -76,6 +81,7 @@ void MeshFront::weigh(const ShadingCache& cache) {
                 own_[kind][place] += part * pixels[kind];
                 if (pixels[kind] > 0) in_view_[place] |= static_cast<std::uint8_t>(1 << kind);
             }
+            if (!told_by_levels(patch)) in_view_[place] |= kByLargePatch;
         }
     }
 
@@ -84,7 +90,7 @@ void MeshFront::weigh(const ShadingCache& cache) {
         const Parents parents = cache.parents(vertices_[place]);
         for (std::size_t i = 0; i < parents.size(); ++i) {
             const std::size_t parent = place_of(parents[i]);
-            in_view_[parent] |= in_view_[place];
+            in_view_[parent] |= static_cast<std::uint8_t>(in_view_[place] & ~kByLargePatch);
             for (int c = 0; c < cache.channels(); ++c)
                 if (!cache.evaluated(vertices_[place], c))
                     spoken_for_[c][parent] += parents.weight(i) * pixels(cache, place, c);
@@ -180,7 +186,8 @@ float MeshFront::gain_at(const ShadingCache& cache, std::size_t place, int chann
         pixels(cache, place, channel) + (evaluated ? waiting(cache, place, channel) : 0);
     if (!(seen > 0)) return 0;
     return evaluated ? gain_of_more(cache, id, channel, seen, settings)
-                     : gain_of_first(cache, id, channel, seen, settings);
+                     : gain_of_first(cache, id, channel,
+                                     {seen, (in_view_[place] & kByLargePatch) == 0}, settings);
 }
 
 void MeshFront::reckon(const ShadingCache& cache, const GainSettings& settings, int threads) {
@@ -213,24 +220,24 @@ std::size_t MeshFront::carry(ShadingCache& cache, std::span<const VertexId> news
         lowest = std::min(lowest, place / 64);
     }
     // Children come after their parents, so that one pass over the marks meets all.
-    carried_.clear();
+    std::vector<std::uint32_t> carried;
     for (std::size_t word = lowest; word < marked_.size(); ++word)
         while (marked_[word] != 0) {
             const std::size_t place =
                 64 * word + static_cast<std::size_t>(std::countr_zero(marked_[word]));
             marked_[word] &= marked_[word] - 1;
             if (cache.resolve(vertices_[place], channel)) mark_children(cache, place, channel);
-            carried_.push_back(static_cast<std::uint32_t>(place));
+            carried.push_back(static_cast<std::uint32_t>(place));
         }
 
     // What they gain depends on nothing but values.
-    carried_gains_.resize(carried_.size());
-    parallel_for_ranges(threads, carried_.size(), kAtOnce, [&](IndexRange range) {
+    std::vector<float> gains(carried.size());
+    parallel_for_ranges(threads, carried.size(), kAtOnce, [&](IndexRange range) {
         for (std::size_t i = range.begin; i < range.end; ++i)
-            carried_gains_[i] = gain_at(cache, carried_[i], channel, settings);
+            gains[i] = gain_at(cache, carried[i], channel, settings);
     });
-    gains_[channel].set_many(carried_, carried_gains_);
-    return carried_.size();
+    gains_[channel].set_many(carried, gains);
+    return carried.size();
 }
 
 std::span<const PatchId> MeshFront::roots_round(VertexId vertex) const {
@@ -255,8 +262,7 @@ void MeshFront::rest(VertexId vertex, int channel) {
 std::size_t MeshFront::bytes() const {
     std::size_t total = vertices_.capacity() * sizeof(VertexId) + levels_.capacity() +
                         in_view_.capacity() + places_.capacity() * sizeof(std::uint32_t) +
-                        marked_.capacity() * sizeof(std::uint64_t) +
-                        4 * (carried_.capacity() + carried_gains_.capacity());
+                        marked_.capacity() * sizeof(std::uint64_t);
     total += 4 * (children_.first.capacity() + children_.entries.capacity() +
                   roots_.first.capacity() + roots_.entries.capacity());
     for (const auto& own : own_) total += own.capacity() * sizeof(float);

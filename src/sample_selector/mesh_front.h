@@ -102,11 +102,10 @@ private:
     std::vector<std::uint32_t> places_;  // by VertexId up to the last: in vertices_, or kNowhere
     Lists<std::uint32_t> children_;      // places
     Lists<PatchId> roots_;
-    std::vector<std::uint64_t> marked_;   // a bit a place, for carry()
-    std::vector<std::uint32_t> carried_;  // places in order, for carry(),
-    std::vector<float> carried_gains_;    // and what they gain
+    std::vector<std::uint64_t> marked_;  // a bit a place, for carry()
     std::vector<std::uint8_t> levels_;
-    std::vector<std::uint8_t> in_view_;           // bit: Shading
+    static constexpr std::uint8_t kByLargePatch = 4;
+    std::vector<std::uint8_t> in_view_;           // bit: Shading; kByLargePatch
     std::array<std::vector<float>, 2> own_;       // by Shading: pixels of the patches round it
     std::vector<std::vector<float>> spoken_for_;  // by channel: pixels of vertices it speaks for
     std::vector<SumTree> gains_;                  // by channel

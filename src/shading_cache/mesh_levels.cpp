@@ -108,7 +108,7 @@ std::vector<LevelVertex> keep_representatives(std::span<const LevelVertex> verti
 // Finds parents among `kept` for those of `vertices` that do not stand for themselves.
 void find_parents(std::span<const LevelVertex> vertices,
                   std::span<const std::uint32_t> representatives, const NearVertices& kept,
-                  const LevelGrid& grid, int threads, std::span<ParentSet> parents) {
+                  const LevelGrid& grid, int threads, std::span<ChosenParents> parents) {
     parallel_for_ranges(threads, vertices.size(), kRange, [&](IndexRange r) {
         std::vector<LevelVertex> near;
         for_cells(vertices, grid, r.begin, r.end, [&](std::size_t first, std::size_t end) {
@@ -116,8 +116,8 @@ void find_parents(std::span<const LevelVertex> vertices,
             for (std::size_t i = first; i < end; ++i) {
                 if (representatives[i] == i) continue;
                 const LevelVertex& representative = vertices[representatives[i]];
-                const ParentSet alone = {{representative.vertex}, {MeshGraph::kFullWeight}};
-                ParentSet& set = parents[vertices[i].vertex];
+                const ChosenParents alone = {{representative.vertex}, {MeshGraph::kFullWeight}};
+                ChosenParents& set = parents[vertices[i].vertex];
                 set = alone;
                 if (vertices[i].position == representative.position) continue;
                 if (near.empty()) kept.find(grid.code(vertices[i]), near);
@@ -130,8 +130,8 @@ void find_parents(std::span<const LevelVertex> vertices,
 }
 
 // Writes down the parents that there are, one vertex after the other.
-void pack_parents(std::span<const ParentSet> sets, int threads, MeshGraph& graph) {
-    const auto count = [](const ParentSet& set) {
+void pack_parents(std::span<const ChosenParents> sets, int threads, MeshGraph& graph) {
+    const auto count = [](const ChosenParents& set) {
         return static_cast<std::uint32_t>(
             std::ranges::count_if(set.weights, [](std::uint8_t w) { return w > 0; }));
     };
@@ -161,7 +161,7 @@ void add_levels(const Mesh& mesh, const LevelSettings& settings, int threads, Me
     if (settings.top_cell <= 0 || settings.levels <= 0 || graph.vertex_count() == 0) return;
     const Grids grids = make_grids(mesh, settings);
     std::vector<LevelVertex> vertices = order_vertices(mesh, grids.finest, threads, graph);
-    std::vector<ParentSet> parents(graph.vertex_count());
+    std::vector<ChosenParents> parents(graph.vertex_count());
     graph.level.assign(graph.vertex_count(), static_cast<std::uint8_t>(settings.levels));
     for (int level = grids.finest_level; level <= settings.levels; ++level) {
         const LevelGrid grid = grids.of(level);

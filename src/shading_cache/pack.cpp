@@ -53,14 +53,14 @@ void ShadingCache::pack() {
         if (!p.is_root()) p.parent = static_cast<std::uint32_t>(new_patch[p.parent]);
         if (!p.is_leaf()) p.first_child = new_patch[index_of(p.first_child)];
     }
-    pack_parents(vertex_kept, new_vertex);
+    pack_parents(vertex_kept, new_vertex, new_patch);
     for (PatchId& root : roots_)
         if (root != PatchId::none) root = new_patch[index_of(root)];
     for (VertexId& id : mesh_vertices_)
         if (id != VertexId::none) id = new_vertex[index_of(id)];
 
     estimates_.pack(vertex_kept);
-    for (auto& shown : shown_) keep_only(shown, vertex_kept);
+    for (ShownValues& shown : shown_) shown.pack(vertex_kept);
     keep_only(patches_, patch_kept);
     keep_only(vertices_, vertex_kept);
     keep_only(notes_, vertex_kept);
@@ -72,9 +72,11 @@ void ShadingCache::pack() {
     }
 }
 
-// Parents by their new ids, and the sets of those vertices alone that are kept.
+// Parents by their new ids, and the sets of those vertices alone that are kept. What a kept vertex
+// centres is kept, since nothing but its children has it for a corner or hangs on it.
 void ShadingCache::pack_parents(const std::vector<char>& vertex_kept,
-                                std::span<const VertexId> new_vertex) {
+                                std::span<const VertexId> new_vertex,
+                                std::span<const PatchId> new_patch) {
     const auto renew = [&](VertexId& id) {
         if (id != VertexId::none) id = new_vertex[index_of(id)];
     };
@@ -83,7 +85,11 @@ void ShadingCache::pack_parents(const std::vector<char>& vertex_kept,
         CacheVertex& v = vertices_[i];
         if (v.halves_edge()) {
             for (VertexId& end : v.ends) renew(end);
-        } else if (vertex_kept[i] && v.ends[0] != VertexId::none) {
+        } else if (!vertex_kept[i] || v.ends[0] == VertexId::none) {
+            continue;
+        } else if (!v.of_mesh) {
+            v.ends[0] = static_cast<VertexId>(new_patch[index_of(v.ends[0])]);
+        } else {
             packed.push_back(parent_sets_[index_of(v.ends[0])]);
             for (VertexId& parent : packed.back().vertices) renew(parent);
             v.ends[0] = static_cast<VertexId>(packed.size() - 1);

@@ -91,8 +91,8 @@ void weigh(Neighbors& near) {
 }
 
 // To multiples of 1 / kFullWeight, the largest remainders rounded up.
-ParentSet quantized(const Neighbors& near) {
-    ParentSet result;
+ChosenParents quantized(const Neighbors& near) {
+    ChosenParents result;
     std::array<double, 4> missing;
     int left = MeshGraph::kFullWeight;
     for (std::size_t i = 0; i < near.size(); ++i) {
@@ -128,8 +128,8 @@ bool continues(const LevelVertex& a, const LevelVertex& b, float cell) {
     return step <= flat + kMostUnevenness * turn;
 }
 
-ParentSet choose_parents(const LevelVertex& vertex, std::span<const LevelVertex> candidates,
-                         float cell) {
+ChosenParents choose_parents(const LevelVertex& vertex, std::span<const LevelVertex> candidates,
+                             float cell) {
     // Vertices of regular meshes lie along the frame's axes: quadrants are turned from these.
     constexpr float kTurnCosine = 0.9211f, kTurnSine = 0.3894f;
     const Frame frame(vertex.normal);

@@ -22,7 +22,7 @@ struct LevelVertex {
 
 /// Up to 4 parents; the weights of those that there are add up to MeshGraph::kFullWeight, the other
 /// weights are 0.
-struct ParentSet {
+struct ChosenParents {
     std::array<std::uint32_t, 4> vertices = {};
     std::array<std::uint8_t, 4> weights = {};
 
@@ -38,7 +38,7 @@ bool continues(const LevelVertex& a, const LevelVertex& b, float cell);
 
 /// The nearest of `candidates` that continue the vertex's surface in each quadrant round it, with
 /// weights >= 0 that reproduce linear functions where these surround it. None: no parents.
-ParentSet choose_parents(const LevelVertex& vertex, std::span<const LevelVertex> candidates,
-                         float cell);
+ChosenParents choose_parents(const LevelVertex& vertex, std::span<const LevelVertex> candidates,
+                             float cell);
 
 }  // namespace chiaro

@@ -63,13 +63,13 @@ struct CacheVertex {
     static constexpr int kSideBits = 28;
 
     // The ends of the edge that it halves, its parents in equal parts. Otherwise the second is
-    // none, and the first too where there are no parents: see ShadingCache::parents().
+    // none, and the first is the patch that it centres, as a PatchId; on a mesh the place of its
+    // ParentSet, or none where there are no parents: see ShadingCache::parents().
     std::array<VertexId, 2> ends = {VertexId::none, VertexId::none};
     std::uint32_t surface_side : kSideBits = 0;  // of the root on which it is sampled
     std::uint32_t of_mesh : 1 = 0;  // a corner of the mesh, not made by dividing patches
     std::uint32_t exposed : 1 = 0;  // it was seen not to be buried, whatever rays met
     std::uint32_t buried : 1 = 0;  // most rays from it met the inside of a solid: it knows no light
-    std::uint32_t hollow : 1 = 0;  // no parent does either: it leaves the interpolation
     Vec2 uv = Vec2(0);  // where it is sampled: pulled in from the patch's border by 0.2 %
 
     void set_surface_side(std::uint32_t side) {
@@ -78,7 +78,7 @@ struct CacheVertex {
     bool halves_edge() const { return ends[1] != VertexId::none; }
 };
 
-/// Parents with weights, where they are more than the two ends of an edge: the first ones of these.
+/// Parents with weights of a vertex of a mesh: the first ones of these.
 struct ParentSet {
     std::array<VertexId, 4> vertices = {VertexId::none, VertexId::none, VertexId::none,
                                         VertexId::none};
@@ -90,6 +90,8 @@ class Parents {
 public:
     static constexpr int kFullWeight = 128;  // sum of the weights
     static constexpr std::array<std::uint8_t, 2> kHalves = {kFullWeight / 2, kFullWeight / 2};
+    static constexpr std::array<std::uint8_t, 4> kQuarters = {kFullWeight / 4, kFullWeight / 4,
+                                                              kFullWeight / 4, kFullWeight / 4};
 
     Parents() = default;
     Parents(std::span<const VertexId> vertices, const std::uint8_t* weights)

@@ -82,7 +82,8 @@ VertexId ShadingCache::mesh_vertex(const MeshPlace& place, MeshVertexId vertex,
         set.weights[i] = weights[i];
     }
     id = add_vertex(made, set);
-    notes_[index_of(id)].level = place.graph.level[index_of(vertex)] & 0x3f;
+    const int level = std::min<int>(place.graph.level[index_of(vertex)], kCoarsestLevel);
+    notes_[index_of(id)].level = static_cast<std::uint8_t>(level) & kCoarsestLevel;
     return id;
 }
 

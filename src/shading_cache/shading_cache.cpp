@@ -21,7 +21,9 @@ ShadingCache::ShadingCache(const Scene& scene, const MeshGraphs& graphs, Channel
     const int total = channels.irradiance + channels.glossy;
     check(channels.irradiance >= 1 && channels.glossy >= 0 && total <= 8,
           "ShadingCache: 1 to 8 channels");
-    shown_.resize(total);
+    for (int c = 0; c < total; ++c)
+        shown_.emplace_back(c < channels.irradiance ? ShownValues::Layout::dense
+                                                    : ShownValues::Layout::sparse);
     follow_scene();
 }
 
@@ -113,9 +115,9 @@ VertexId ShadingCache::node_vertex(PatchId id, Node node) {
     const Patch& p = patch(id);
     if (node < kFirstMidpoint) return p.corners[node];
     if (node == kCentre) {
-        constexpr std::uint8_t kQuarter = Parents::kFullWeight / 4;
-        return add_vertex(new_vertex(id, node_place(true, kCentre)),
-                          {p.corners, {kQuarter, kQuarter, kQuarter, kQuarter}});
+        CacheVertex vertex = new_vertex(id, node_place(true, kCentre));
+        vertex.ends[0] = static_cast<VertexId>(id);
+        return add_vertex(vertex);
     }
     return edge_midpoint(id, node);
 }
@@ -150,7 +152,7 @@ Parents ShadingCache::parents_of(const ParentSet& set) {
 VertexId ShadingCache::add_vertex(CacheVertex vertex, const ParentSet& parents) {
     if (parents.vertices[0] != VertexId::none) {
         vertex.ends[0] = static_cast<VertexId>(parent_sets_.size());
-        append(parent_sets_, parents, vertex.of_mesh ? kAtOnce : kOften);
+        append(parent_sets_, parents, kAtOnce);
     }
     return add_vertex(vertex);
 }
@@ -162,7 +164,7 @@ VertexId ShadingCache::add_vertex(const CacheVertex& vertex) {
     append(notes_, Notes{}, part);
     const auto made = static_cast<VertexId>(vertices_.size() - 1);
     estimates_.add_vertex(part);
-    for (auto& shown : shown_) append(shown, std::uint32_t{0}, part);
+    for (ShownValues& shown : shown_) shown.add_vertex(part);
     resolve_vertex(made);
     return made;
 }
@@ -210,7 +212,7 @@ std::size_t ShadingCache::bytes() const {
                         bytes_of(reflectances_) + bytes_of(roots_) + bytes_of(mesh_vertices_) +
                         bytes_of(patches_) + bytes_of(vertices_) + bytes_of(parent_sets_) +
                         bytes_of(notes_) + edges_.bytes() + estimates_.bytes() + bytes_of(changed_);
-    for (const auto& shown : shown_) total += bytes_of(shown);
+    for (const ShownValues& shown : shown_) total += shown.bytes();
     return total;
 }
 

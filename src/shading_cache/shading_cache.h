@@ -8,6 +8,7 @@
 #include "shading_cache/estimate_table.h"
 #include "shading_cache/mesh_graph.h"
 #include "shading_cache/patch.h"
+#include "shading_cache/shown_values.h"
 
 #include <optional>
 #include <span>
@@ -30,7 +31,8 @@ struct Channels {
 /// What channels hold.
 enum class Shading { irradiance, glossy };
 
-/// A value of one channel, and what it weighs in an interpolation: 0 at a hollow vertex, else 1.
+/// A value of one channel, and what it weighs in an interpolation: 0 where the vertex is hollow,
+/// else 1.
 struct Shown {
     Rgb value;
     float weight;
@@ -74,11 +76,12 @@ public:
     /// Gives up what was collapsed and moves the rest together, in order. All ids change.
     void pack();
 
-    /// What a vertex's values are predicted from. Valid until vertices are added.
+    /// What a vertex's values are predicted from. Valid until vertices or patches are added.
     Parents parents(VertexId vertex) const {
         const CacheVertex& v = this->vertex(vertex);
         if (v.halves_edge()) return {v.ends, Parents::kHalves.data()};
         if (v.ends[0] == VertexId::none) return {};
+        if (!v.of_mesh) return {patches_[index_of(v.ends[0])].corners, Parents::kQuarters.data()};
         return parents_of(parent_sets_[index_of(v.ends[0])]);
     }
 
@@ -153,6 +156,14 @@ public:
     bool dark(VertexId vertex) const;
     /// A vertex that was taken for buried is in view: its estimates count after all, and for good.
     void expose(VertexId vertex);
+    /// Whether a part of what that kind of light comes to at a vertex is not known: it is buried or
+    /// was not evaluated in all channels of that kind, and nor can its parents predict them, all of
+    /// which are hollow too. It leaves the interpolation, as half of its light would be a dark
+    /// spot.
+    bool hollow(VertexId vertex, Shading shading) const {
+        const Notes& notes = notes_[index_of(vertex)];
+        return shading == Shading::glossy ? notes.hollow_in_gloss : notes.hollow;
+    }
     /// Corners of a patch that are buried.
     int buried_corners(const Patch& patch) const;
 
@@ -189,11 +200,18 @@ public:
 
 private:
     struct MeshPlace;
+    static constexpr std::uint8_t kCoarsestLevel = 15;
     struct Notes {  // on a vertex
-        std::uint8_t level : 6 = 0;
+        std::uint8_t level : 4 = 0;
         std::uint8_t of_root : 1 = 0;
         std::uint8_t relocated : 1 = 0;
+        std::uint8_t hollow : 1 = 0;
+        std::uint8_t hollow_in_gloss : 1 = 0;
     };
+    struct ChannelRange {
+        int first, end;
+    };
+    ChannelRange channels_of(Shading shading) const;
     MeshPlace mesh_place(std::uint32_t surface_side) const;
     VertexId mesh_vertex(const MeshPlace& place, MeshVertexId vertex, MeshCorner sampled_at);
     void put(VertexId vertex, std::uint32_t surface_side, Vec2 uv);
@@ -205,14 +223,17 @@ private:
     VertexId add_vertex(const CacheVertex& vertex);
     VertexId add_vertex(CacheVertex vertex, const ParentSet& parents);
     Split choose_split(PatchId leaf) const;
+    bool tells(VertexId vertex, int channel) const;
     std::optional<Rgb> predicted(VertexId vertex, int channel) const;
+    void resolve_hollow(VertexId vertex, Shading shading);
     void resolve_hollow(VertexId vertex);
     float first_surplus(VertexId vertex, int channel, Rgb mean, float variance) const;
     void note_change(VertexId vertex, int channel);
     void resolve_vertex(VertexId vertex, int channel);
     void resolve_vertex(VertexId vertex);
     void show(VertexId vertex, int channel, Rgb value);
-    void pack_parents(const std::vector<char>& vertex_kept, std::span<const VertexId> new_vertex);
+    void pack_parents(const std::vector<char>& vertex_kept, std::span<const VertexId> new_vertex,
+                      std::span<const PatchId> new_patch);
     SurfacePoint place(std::uint32_t surface_side, Vec2 uv) const;
 
     static constexpr std::size_t kAtOnce = 8;  // roots come by the view: append(),
@@ -229,13 +250,13 @@ private:
     std::vector<VertexId> mesh_vertices_;  // 2 x vertex + (back ? 1 : 0); none until first needed
     std::vector<Patch> patches_;
     std::vector<CacheVertex> vertices_;
-    std::vector<ParentSet> parent_sets_;  // of the vertices that have more than an edge's ends
+    std::vector<ParentSet> parent_sets_;  // of vertices of meshes that have parents
     std::vector<Notes> notes_;            // by vertex
     EdgeTable edges_;
 
     EstimateTable estimates_;
-    std::vector<std::vector<std::uint32_t>> shown_;  // a channel: RGB9E5 by vertex, in shown_unit_
-    float shown_unit_ = 0x1p-60f;  // a power of two; raised when something brighter comes
+    std::vector<ShownValues> shown_;  // by channel, in shown_unit_
+    float shown_unit_ = 0x1p-60f;     // a power of two; raised when something brighter comes
 
     std::vector<std::pair<VertexId, int>> forgotten_;  // take_forgotten()
 

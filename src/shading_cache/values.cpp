@@ -147,24 +147,26 @@ int ShadingCache::buried_corners(const Patch& patch) const {
 }
 
 Shown ShadingCache::shown(VertexId id, int channel) const {
-    return {unpack_rgb9e5(shown_[channel][index_of(id)]) * shown_unit_,
-            vertex(id).hollow ? 0.0f : 1.0f};
+    return {unpack_rgb9e5(shown_[channel].of(id)) * shown_unit_,
+            hollow(id, shading(channel)) ? 0.0f : 1.0f};
+}
+
+ShadingCache::ChannelRange ShadingCache::channels_of(Shading shading) const {
+    if (shading == Shading::irradiance) return {0, irradiance_channels_};
+    return {irradiance_channels_, channels()};
 }
 
 Shown ShadingCache::shown_total(VertexId id, Shading shading) const {
-    const bool glossy = shading == Shading::glossy;
-    const int first = glossy ? irradiance_channels_ : 0;
-    const int end = glossy ? channels() : irradiance_channels_;
-    Shown total = {Rgb(0), vertex(id).hollow ? 0.0f : 1.0f};
-    for (int c = first; c < end; ++c) total.value += shown(id, c).value;
+    Shown total = {Rgb(0), hollow(id, shading) ? 0.0f : 1.0f};
+    const ChannelRange range = channels_of(shading);
+    for (int c = range.first; c < range.end; ++c) total.value += shown(id, c).value;
     return total;
 }
 
 void ShadingCache::forget_glossy() {
     const auto glossy = static_cast<std::uint8_t>(kAllChannels << irradiance_channels_);
     for (Patch& patch : patches_) patch.refined_channels &= static_cast<std::uint8_t>(~glossy);
-    for (int c = irradiance_channels_; c < channels(); ++c)
-        std::fill(shown_[c].begin(), shown_[c].end(), 0u);
+    for (int c = irradiance_channels_; c < channels(); ++c) shown_[c].clear_values();
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
         estimates_.forget(static_cast<VertexId>(i), glossy);
         resolve_hollow(static_cast<VertexId>(i));
@@ -173,15 +175,20 @@ void ShadingCache::forget_glossy() {
     std::fill(changed_.begin(), changed_.end(), kAllChannels);
 }
 
-// The parents' weighted mean, hollow ones left out; nothing if none is left.
+// Of a hollow vertex only what was evaluated at it is worth something.
+bool ShadingCache::tells(VertexId id, int channel) const {
+    return !hollow(id, shading(channel)) || (!vertex(id).buried && evaluated(id, channel));
+}
+
+// The weighted mean of those parents that tell something; nothing if none does.
 std::optional<Rgb> ShadingCache::predicted(VertexId id, int channel) const {
     Rgb sum(0);
     int weight = 0;
     const Parents parents = this->parents(id);
     for (std::size_t i = 0; i < parents.size(); ++i) {
-        if (vertex(parents[i]).hollow) continue;
+        if (!tells(parents[i], channel)) continue;
         const int w = parents.whole_weight(i);
-        sum += static_cast<float>(w) * unpack_rgb9e5(shown_[channel][index_of(parents[i])]);
+        sum += static_cast<float>(w) * unpack_rgb9e5(shown_[channel].of(parents[i]));
         weight += w;
     }
     if (weight == 0) return std::nullopt;
@@ -202,15 +209,14 @@ void ShadingCache::show(VertexId id, int channel, Rgb value) {
     if (max_component(value) > kMostUnits * shown_unit_) {
         const float unit =
             std::exp2(std::ceil(std::log2(max_component(value) / (kMostUnits * kRoom))));
-        for (auto& array : shown_)
-            for (std::uint32_t& bits : array)
+        for (ShownValues& shown : shown_)
+            for (std::uint32_t& bits : shown.values())
                 bits = pack_rgb9e5(unpack_rgb9e5(bits) * (shown_unit_ / unit));
         shown_unit_ = unit;
     }
-    std::uint32_t& bits = shown_[channel][index_of(id)];
-    const std::uint32_t new_bits = pack_rgb9e5(value / shown_unit_);
-    if (bits == new_bits) return;
-    bits = new_bits;
+    const std::uint32_t bits = pack_rgb9e5(value / shown_unit_);
+    if (bits == shown_[channel].of(id)) return;
+    shown_[channel].set(id, bits);
     note_change(id, channel);
 }
 
@@ -219,14 +225,21 @@ void ShadingCache::note_change(VertexId id, int channel) {
     first_changed_ = std::min(first_changed_, index_of(id));
 }
 
-void ShadingCache::resolve_hollow(VertexId id) {
-    CacheVertex& v = vertices_[index_of(id)];
-    bool knows = !v.buried && evaluated(id);
-    for (const VertexId parent : parents(id)) knows |= !vertex(parent).hollow;
-    if (v.hollow == (knows ? 0 : 1)) return;
-    v.hollow = knows ? 0 : 1;
+void ShadingCache::resolve_hollow(VertexId id, Shading shading) {
+    const ChannelRange range = channels_of(shading);
+    bool knows = !vertex(id).buried;
+    for (int c = range.first; c < range.end; ++c) knows &= evaluated(id, c);
+    for (const VertexId parent : parents(id)) knows |= !hollow(parent, shading);
+    if (hollow(id, shading) != knows) return;
+    Notes& notes = notes_[index_of(id)];
+    (shading == Shading::glossy ? notes.hollow_in_gloss : notes.hollow) = knows ? 0 : 1;
     // What it is left out of, or comes into, is all that its children show.
-    for (int c = 0; c < channels(); ++c) note_change(id, c);
+    for (int c = range.first; c < range.end; ++c) note_change(id, c);
+}
+
+void ShadingCache::resolve_hollow(VertexId id) {
+    resolve_hollow(id, Shading::irradiance);
+    if (has_glossy()) resolve_hollow(id, Shading::glossy);
 }
 
 void ShadingCache::resolve_vertex(VertexId id) {
@@ -248,11 +261,11 @@ void ShadingCache::resolve() {
 }
 
 bool ShadingCache::resolve(VertexId id, int channel) {
-    const bool was_hollow = vertex(id).hollow;
-    const std::uint32_t shown_before = shown_[channel][index_of(id)];
+    const bool was_hollow = hollow(id, shading(channel));
+    const std::uint32_t shown_before = shown_[channel].of(id);
     resolve_hollow(id);
     resolve_vertex(id, channel);
-    return was_hollow != vertex(id).hollow || shown_before != shown_[channel][index_of(id)];
+    return was_hollow != hollow(id, shading(channel)) || shown_before != shown_[channel].of(id);
 }
 
 void ShadingCache::forget_changes() {

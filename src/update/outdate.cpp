@@ -108,7 +108,12 @@ LeastLight least_light(const PictureScale& scale) {
 
 float light2(const ShadingCache& cache, VertexId id, int channel, const LeastLight& least) {
     const Shading shading = cache.shading(channel);
-    const float light = luminance(cache.shown_total(id, shading).value);
+    float light = luminance(cache.shown_total(id, shading).value);
+    const Parents parents = cache.parents(id);
+    float around = 0;
+    for (std::size_t i = 0; i < parents.size(); ++i)
+        around += parents.weight(i) * luminance(cache.shown_total(parents[i], shading).value);
+    light = std::max(light, around);
     return light * light + least.of(shading) * least.of(shading);
 }
 

@@ -18,8 +18,9 @@ struct LeastLight {
 };
 LeastLight least_light(const PictureScale& scale);
 
-/// What relative errors at a vertex are relative to, squared: all its light that adds up with the
-/// channel's, and the least.
+/// What relative errors at a vertex are relative to, squared: all light that adds up with the
+/// channel's, there or where it is predicted from (one that is dark by bad luck among lit ones is
+/// not known well), and the least.
 float light2(const ShadingCache& cache, VertexId vertex, int channel, const LeastLight& least);
 
 /// Makes stale what `change`, which the scene has behind it, may have reached, and tells `expected`

@@ -116,7 +116,7 @@ double UpdateCycle::polish_pixels(std::size_t count) {
     }
     std::vector<Rgb> light = seen.light;
     light_pixels(seen, light);
-    polish_.add(map_, light);
+    polish_.add(light);
 
     if (settings_.fixed_size)
         return static_cast<double>(count) * kSecondsAPolishedPixel + work_seconds(work);

@@ -15,10 +15,10 @@ inline constexpr double kSecondsAPolishedPixel = 40e-6;
 ///
 /// Passes look up a cache that is still refined, so that old ones are forgotten: the mean is over
 /// the latest complete window of passes and the one that is filled, and a window begins whenever
-/// the number of passes has doubled. Between half and three quarters of all passes count, each by
-/// its rays, and so do those of the first look, whose fragments show the cache as it is.
+/// the number of passes has doubled. Between half and three quarters of all passes count, and as
+/// much as one of them the first look, whose fragments show the cache as it is.
 ///
-/// 32 bytes an entry, whatever the number of passes.
+/// 24 bytes an entry, whatever the number of passes.
 class PolishMeans {
 public:
     /// Nothing but the first look, at so many pixels.
@@ -29,9 +29,9 @@ public:
     std::uint32_t pass() const { return pass_; }
     std::size_t next() const { return next_; }
 
-    /// Adds what the pass shows by chance in the next light.size() pixels of the map [cd/m2 a
-    /// channel]. Goes on to the next pass behind the last.
-    void add(const IdMap& map, std::span<const Rgb> light);
+    /// Adds what the pass shows by chance in the next light.size() pixels [cd/m2 a channel]. Goes
+    /// on to the next pass behind the last.
+    void add(std::span<const Rgb> light);
 
     /// Puts the means into a picture of the map, in pixels that a pass has looked at.
     void show(const ShadingCache& cache, const IdMap& map, int threads, Image& picture) const;
@@ -39,12 +39,8 @@ public:
     std::size_t bytes() const { return windows_.capacity() * sizeof(Windows); }
 
 private:
-    struct Window {
-        Rgb sum = Rgb(0);  // of radiance times rays
-        float rays = 0;
-    };
     struct Windows {
-        Window complete, filled;
+        Rgb complete = Rgb(0), filled = Rgb(0);  // sums of radiance over passes
     };
     std::vector<Windows> windows_;
     std::uint32_t pass_ = 1;

@@ -117,9 +117,10 @@ std::vector<VertexId> hollow_in_view(const ShadingCache& cache, const MeshFront&
     std::vector<VertexId> hollow;
     for (std::size_t place = 0; place < mesh.vertices().size(); ++place) {
         const VertexId id = mesh.vertices()[place];
-        if (cache.vertex(id).hollow && !cache.evaluated(id, channel) &&
-            mesh.pixels(cache, place, channel) >= kSpeck)
-            hollow.push_back(id);
+        if (!cache.hollow(id, cache.shading(channel)) || cache.evaluated(id, channel)) continue;
+        const bool half_known = cache.evaluated(id) && !cache.vertex(id).buried;
+        const float pixels = mesh.pixels(cache, place, channel);
+        if (pixels >= kSpeck || (half_known && pixels > 0)) hollow.push_back(id);
     }
     return hollow;
 }

@@ -33,9 +33,9 @@ void even_out(ShadingCache& cache, IdMap& map, const MeshFront& mesh, int channe
 std::vector<VertexId> missing_in_view(const ShadingCache& cache, const MeshFront& mesh, int channel,
                                       int start_level);
 
-/// Vertices of meshes on which a pixel or more weighs in a channel, not evaluated in it, all
-/// of whose parents are buried: nothing is known there. (Smaller ones gain much, and soon have
-/// their turn.)
+/// Vertices of meshes on which a pixel or more weighs in a channel, not evaluated in it, that are
+/// hollow: nothing predicts their light. (Smaller ones gain much, and soon have their turn, but for
+/// those that were evaluated in another channel, which count for nothing until then.)
 std::vector<VertexId> hollow_in_view(const ShadingCache& cache, const MeshFront& mesh, int channel);
 
 /// Patches in view all or all but one of whose corners are buried, although something of them is

@@ -47,8 +47,10 @@ std::vector<ChannelPlan> plan_channels(const UpdateSettings& settings, const Sce
     std::vector<ChannelPlan> plans = plan_irradiance(settings, scene);
     if (!shows_cached_gloss(settings, scene)) return plans;
     const bool paper = settings.scheme == Scheme::paper;
+    // What few rays find makes most vertices darker than they are, and as sure of it; such noise
+    // is taken for detail and divided down to the pixel (a varnished rail under lamps, by 32).
     plans.push_back({.light = Light::glossy,
-                     .first_samples = paper ? settings.indirect_samples : 32,
+                     .first_samples = paper ? settings.indirect_samples : 128,
                      .finds_buried = !paper});
     return plans;
 }
@@ -71,11 +73,16 @@ float cost(const SampleCosts& costs, Light light) {
     }
 }
 
-std::vector<bool> buried(const ShadingCache& cache, std::span<const VertexId> vertices) {
-    std::vector<bool> buried;
-    buried.reserve(vertices.size());
-    for (const VertexId v : vertices) buried.push_back(cache.vertex(v).buried != 0);
-    return buried;
+// Which estimates count in predictions, by vertex: another number where that has changed.
+std::vector<std::uint8_t> standing(const ShadingCache& cache, std::span<const VertexId> vertices) {
+    std::vector<std::uint8_t> standing;
+    standing.reserve(vertices.size());
+    for (const VertexId v : vertices) {
+        const int hollow = cache.hollow(v, Shading::irradiance) +
+                           2 * (cache.has_glossy() && cache.hollow(v, Shading::glossy));
+        standing.push_back(static_cast<std::uint8_t>(cache.vertex(v).buried + 2 * hollow));
+    }
+    return standing;
 }
 
 SplitRule split_rule(Scheme scheme) {
@@ -159,7 +166,7 @@ void UpdateCycle::shade(ShadeWork& work) {
     const StepTimer timer(statistics_.timings, Step::rendering);
     for (int c = 0; c < cache_.channels(); ++c) {
         const std::vector<VertexId> new_ones = evaluated_first(work, c);
-        const auto buried_before = buried(cache_, work.vertices(c));
+        const auto before = standing(cache_, work.vertices(c));
         const std::vector<float> stale = stale_light(work, c);
         const double seconds =
             work.shade(cache_, *renderer_, c, static_cast<Cycle>(statistics_.cycles));
@@ -167,13 +174,13 @@ void UpdateCycle::shade(ShadeWork& work) {
         if (settings_.scheme == Scheme::best) {
             const auto suspects = mesh_front_.settle(cache_, new_ones, c, gains_);
             news_[c].insert(news_[c].end(), suspects.begin(), suspects.end());
-            const auto buried_now = buried(cache_, work.vertices(c));
-            for (std::size_t i = 0; i < buried_now.size(); ++i) {
+            const auto now = standing(cache_, work.vertices(c));
+            for (std::size_t i = 0; i < now.size(); ++i) {
                 const VertexId v = work.vertices(c)[i];
                 if (!cache_.vertex(v).of_mesh) continue;
-                // One that is found buried, or not, speaks otherwise in all channels.
+                // One that is found buried or hollow, or not, speaks otherwise in all channels.
                 for (int other = 0; other < cache_.channels(); ++other)
-                    if (other == c || buried_now[i] != buried_before[i]) news_[other].push_back(v);
+                    if (other == c || now[i] != before[i]) news_[other].push_back(v);
             }
         }
         statistics_.samples[c] += work.samples(c);

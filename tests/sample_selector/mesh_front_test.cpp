@@ -205,7 +205,9 @@ TEST(MeshFront, AMissIsSuspectedOfItsSiblings) {
     f.front.reckon(f.cache, settings(), 2);
     f.front.carry(f.cache, coarsest(f.cache), 0, settings(), 2);
     const auto [one, other, parent] = siblings(f.cache);
-    const auto gain = [&](VertexId id) { return gain_of_first(f.cache, id, 0, 1, settings()); };
+    const auto gain = [&](VertexId id) {
+        return gain_of_first(f.cache, id, 0, {.pixels = 1}, settings());
+    };
     const float surplus = f.cache.surplus(parent, 0), before = gain(other);
     f.store({one}, 0, [](VertexId) { return 4.0f; });
     EXPECT_NEAR(f.cache.surplus(one, 0), 3.5f, 0.02f);  // what it missed
@@ -268,15 +270,42 @@ TEST(MeshFront, VerticesWaitForHalfOfTheirParents) {
         if (parents.size() < 3) continue;
         ShadingCache cache = f.cache;
         float known = 0;
-        EXPECT_GT(gain_of_first(cache, id, 0, 10, settings()), 0);
+        EXPECT_GT(gain_of_first(cache, id, 0, {.pixels = 10}, settings()), 0);
         for (std::size_t i = 0; i < parents.size(); ++i) {
             cache.store(parents[i], 0, Rgb(1), 0, 64, 1);
             cache.resolve();
             known += parents.weight(i);
-            EXPECT_EQ(gain_of_first(cache, id, 0, 10, settings()) > 0, known >= 0.5f) << i;
+            EXPECT_EQ(gain_of_first(cache, id, 0, {.pixels = 10}, settings()) > 0, known >= 0.5f)
+                << i;
         }
         if (index_of(id) > 400) break;
     }
+}
+
+// Levels that agree all round tell little of the corners of a triangle of more than 16 pixels:
+// these gain more than twice as much a pixel as those of a small one.
+TEST(MeshFront, CornersOfLargeTrianglesDoNotTrustTheLevels) {
+    float gain_a_pixel[2] = {};
+    for (const bool large : {false, true}) {
+        DenseGrid dense(24, 24);
+        const PatchId root = dense.cache.root(ObjectId{0}, 555, true);
+        Rng rng(1);
+        IdMap map = random_map(dense.cache, {root}, large ? 17 : 16, rng);
+        for (Fragment& f : map.fragments) f.reflectance = Rgb(1);
+        attach(dense.cache, map, 1);
+        const auto corners = std::span(dense.cache.patch(root).corners).first(3);
+        const VertexId corner = *std::ranges::find_if(
+            corners, [&](VertexId v) { return !dense.cache.parents(v).empty(); });
+        for (const VertexId id : all_vertices(dense.cache))
+            if (id != corner) dense.cache.store(id, 0, Rgb(0.25f), 0, 64, 1);
+        dense.cache.resolve();
+        MeshFront front;
+        front.attach(dense.cache);
+        front.reckon(dense.cache, settings(), 1);
+        gain_a_pixel[large] = static_cast<float>(front.total(0)) / (large ? 17 : 16);
+    }
+    EXPECT_GT(gain_a_pixel[0], 0);
+    EXPECT_GT(gain_a_pixel[1], 2 * gain_a_pixel[0]);
 }
 
 // What is drawn is in view, not known yet, and not of what rests.

@@ -76,6 +76,48 @@ TEST(Buried, HollownessIsInheritedUntilLightIsFound) {
     EXPECT_EQ(s.cache.shown(midpoint, 0).value, Rgb(4));
 }
 
+// A vertex among buried ones of which direct light alone is known is dark, not lit by the half of
+// its light: it counts once the other half is known too.
+TEST(Buried, HalfOfTheLightIsNoLight) {
+    Square s(2);
+    for (const VertexId v : s.corners)
+        for (int c = 0; c < 2; ++c) s.cache.store(v, c, Rgb(c == 0 ? 2.0f : 8.0f), 0, 1, 1);
+    s.cache.mark_buried(s.corners[0]);
+    s.cache.mark_buried(s.corners[1]);
+    const PatchId child = s.cache.subdivide(s.root);
+    const VertexId midpoint = s.cache.patch(child).corners[1];
+    s.cache.store(midpoint, 0, Rgb(2), 0, 1, 1);
+    s.cache.resolve();
+    EXPECT_EQ(s.cache.shown_total(midpoint).weight, 0);
+    EXPECT_EQ(irradiance_at(s.cache, child, {0.9f, 0.1f}), Rgb(2 + 8));
+    s.cache.store(midpoint, 1, Rgb(8), 0, 1, 1);
+    EXPECT_EQ(s.cache.shown_total(midpoint).value, Rgb(2 + 8));
+    EXPECT_EQ(s.cache.shown_total(midpoint).weight, 1);
+}
+
+// What a vertex was found to get in one channel predicts that channel, whatever the others know:
+// surplus is reckoned against it before they are evaluated.
+TEST(Buried, HalfOfTheLightPredictsThatHalf) {
+    Square s(2);
+    s.store_corners(8);
+    EXPECT_EQ(s.cache.shown_total(s.corners[0]).weight, 0);
+    const VertexId midpoint = s.cache.patch(s.cache.subdivide(s.root)).corners[1];
+    EXPECT_EQ(s.cache.shown(midpoint, 0).value, Rgb(8));
+    s.cache.store(midpoint, 0, Rgb(9), 0, 1, 1);
+    EXPECT_EQ(s.cache.estimate(midpoint, 0)->surplus, 1);
+}
+
+// Metal has gloss alone: that nothing is known of irradiance there does not matter to it.
+TEST(Buried, GlossIsKnownWithoutIrradiance) {
+    Scene scene = grid(1, 1);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {.irradiance = 2, .glossy = 1}, SplitRule::always_four);
+    const PatchId root = cache.root(ObjectId{0}, 0, true);
+    for (const VertexId v : cache.patch(root).corners) cache.store(v, 2, Rgb(3), 0, 1, 1);
+    EXPECT_EQ(glossy_at(cache, root, {0.3f, 0.4f}), Rgb(3));
+    EXPECT_EQ(cache.shown_total(cache.patch(root).corners[0]).weight, 0);
+}
+
 // If nothing is known the picture is black, not undefined.
 TEST(Buried, AllHollowIsBlack) {
     Square s;

@@ -121,7 +121,7 @@ TEST(MeshVertices, ARelocatedVertexIsItselfAgainAtARoot) {
     EXPECT_TRUE(cache.of_root(hidden));
     EXPECT_FALSE(cache.evaluated(hidden));
     EXPECT_FALSE(cache.vertex(hidden).buried);
-    EXPECT_TRUE(cache.vertex(hidden).hollow);  // none is above it
+    EXPECT_TRUE(cache.hollow(hidden, Shading::irradiance));  // none is above it
     EXPECT_EQ(cache.take_forgotten(), (std::vector<std::pair<VertexId, int>>{{hidden, 1}}));
     EXPECT_TRUE(cache.take_forgotten().empty());
     cache.resolve();
@@ -218,12 +218,13 @@ TEST(MeshVertices, ResolvingOneTellsWhetherItShowsSomethingElse) {
     ShadingCache& cache = dense.cache;
     front_roots(cache);
     for (const VertexId id : coarsest(cache)) cache.store(id, 0, Rgb(4), 0, 1, 1);
+    for (const VertexId id : coarsest(cache)) cache.store(id, 1, Rgb(0), 0, 1, 1);
     std::size_t predicted = 0;
     for (const VertexId id : all_vertices(cache)) {
         const bool is_predicted = !cache.parents(id).empty();
         EXPECT_EQ(cache.resolve(id, 0), is_predicted);
         EXPECT_FALSE(cache.resolve(id, 0));  // by now it is known
-        EXPECT_FALSE(cache.resolve(id, 1));  // nothing was stored there
+        EXPECT_FALSE(cache.resolve(id, 1));  // black, as before
         predicted += is_predicted ? 1 : 0;
     }
     EXPECT_GT(predicted, 200u);

@@ -32,7 +32,7 @@ void expect_same_tree(const ShadingCache& before, PatchId a, const ShadingCache&
         }
         EXPECT_EQ(before.vertex(v).buried, after.vertex(w).buried);
         EXPECT_EQ(before.vertex(v).exposed, after.vertex(w).exposed);
-        EXPECT_EQ(before.vertex(v).hollow, after.vertex(w).hollow);
+        EXPECT_EQ(before.hollow(v, Shading::irradiance), after.hollow(w, Shading::irradiance));
         EXPECT_EQ(before.shown(v, 0).value, after.shown(w, 0).value);
         const Estimate *e = before.estimate(v, 0), *f = after.estimate(w, 0);
         ASSERT_EQ(e != nullptr, f != nullptr);

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 
 namespace chiaro {
@@ -25,6 +27,12 @@ SessionSettings settings_of(std::uint64_t seed) {
     s.width = kWidth;
     s.height = kHeight;
     return s;
+}
+
+// CHIARO_LAW_SEED: another one, to see how the ratios vary.
+std::uint64_t seed_of_edited() {
+    const char* seed = std::getenv("CHIARO_LAW_SEED");
+    return seed ? std::strtoull(seed, nullptr, 10) : 7;
 }
 
 void run(Session& session, int cycles) {
@@ -94,47 +102,55 @@ double difference(const Image& a, const Image& b, int side) {
     return std::sqrt(sum / squares);
 }
 
-struct Law {
-    double pixels = 0, squares = 0;                    // difference of the edited and a fresh cache
-    double noise_of_pixels = 0, noise_of_squares = 0;  // of two fresh ones
+// Mean squared differences, by pixels and by squares.
+struct Differences {
+    double pixels = 0, squares = 0;
+    void add(const Image& a, const Image& b, double part) {
+        const double p = difference(a, b, 1), s = difference(a, b, 8);
+        pixels += part * p * p;
+        squares += part * s * s;
+    }
 };
 
-// `edited`, that had its edits a while ago, beside caches that know nothing else.
-Law law_of(Session& edited, int cycles) {
+// Compares `edited`, whose edits are behind it, with three fresh caches after as many cycles, which
+// differ by their noise. That of the cells which end gathered rays is common to a whole picture, so
+// that squares vary most: in 12 sessions of other seeds the ratios of the roots were 0.9 to 1.8.
+void expect_law(Session& edited, int cycles, const std::string& what) {
     run(edited, cycles);
-    Session one(edited.scene(), edited.camera(), settings_of(11));
-    Session other(edited.scene(), edited.camera(), settings_of(12));
-    run(one, cycles);
-    run(other, cycles);
-    const Image a = edited.cycle().picture(), b = one.cycle().picture(),
-                c = other.cycle().picture();
-    constexpr int kSide = 8;
-    return {difference(a, b, 1), difference(a, b, kSide), difference(b, c, 1),
-            difference(b, c, kSide)};
+    const Image shown = edited.cycle().picture();
+    std::vector<Image> fresh;
+    for (std::uint64_t seed = 11; seed < 14; ++seed) {
+        Session session(edited.scene(), edited.camera(), settings_of(seed));
+        run(session, cycles);
+        fresh.push_back(session.cycle().picture());
+    }
+    Differences differences, noise;
+    for (std::size_t i = 0; i < 3; ++i) {
+        differences.add(shown, fresh[i], 1.0 / 3);
+        noise.add(fresh[i], fresh[(i + 1) % 3], 1.0 / 3);
+    }
+    EXPECT_LT(std::sqrt(differences.pixels / noise.pixels), 2.2) << what;
+    EXPECT_LT(std::sqrt(differences.squares / noise.squares), 2.2) << what;
+    EXPECT_LT(std::sqrt(noise.pixels), 0.05) << what << ": too noisy to tell";
+    std::printf("%s: %.2f, %.2f of the noise\n", what.c_str(),
+                std::sqrt(differences.pixels / noise.pixels),
+                std::sqrt(differences.squares / noise.squares));
 }
 
-// Fresh caches of two seeds differ by their noise. In 40 comparisons of further seeds their
-// differences varied by less than a fifth, so that a factor of 1.5 is not left by chance.
-void expect_law(const Law& law, const std::string& what) {
-    EXPECT_LT(law.pixels, 1.5 * law.noise_of_pixels) << what;
-    EXPECT_LT(law.squares, 1.5 * law.noise_of_squares) << what;
-    EXPECT_LT(law.noise_of_pixels, 0.05) << what << ": too noisy to tell";
-}
-
-constexpr int kBefore = 30, kBetween = 4, kAfter = 80;
+constexpr int kBefore = 30, kBetween = 4, kAfter = 60;
 
 void test_script(const std::string& name, const std::function<std::vector<Edit>(const Scene&)>& f) {
     Scene scene = *built_in_scene(name);
     const Camera camera = scene.cameras.front();
     std::vector<Edit> edits = f(scene);
     edits.emplace_back(seen_from(camera, {0.2f, 0.1f, 0.1f}));
-    Session session(std::move(scene), camera, settings_of(7));
+    Session session(std::move(scene), camera, settings_of(seed_of_edited()));
     run(session, kBefore);
     for (const Edit& edit : edits) {
         session.apply(edit);
         run(session, kBetween);
     }
-    expect_law(law_of(session, kAfter), name);
+    expect_law(session, kAfter, name);
 }
 
 TEST(EditLaw, Room) {
@@ -161,12 +177,12 @@ TEST(EditLaw, PoolHall) {
     });
 }
 
-// A thousand edits at random, four a cycle, then all of them undone: nothing of any is left.
+// A thousand edits at random, ten a cycle, then all of them undone: nothing of any is left.
 TEST(EditLaw, NothingIsLeftOfAThousandEditsThatAreUndone) {
     Scene scene = *built_in_scene("cornell");
     const Camera camera = scene.cameras.front();
     const Scene at_first = scene;
-    Session session(std::move(scene), camera, settings_of(7));
+    Session session(std::move(scene), camera, settings_of(seed_of_edited()));
     EditHistory history;
     Rng rng(5);
     run(session, 10);
@@ -194,20 +210,13 @@ TEST(EditLaw, NothingIsLeftOfAThousandEditsThatAreUndone) {
         if (now.objects.size() < 12) one_of.emplace_back(AddObject{now.objects[index_of(o)]});
         const auto chosen = rng.below(static_cast<std::uint32_t>(one_of.size()));
         history.add(session.apply(one_of[chosen]));
-        if (i % 4 == 3) session.run();
+        if (i % 10 == 9) session.run();
     }
     while (history.can_undo()) history.undo([&](const Edit& edit) { return session.apply(edit); });
     for (std::size_t i = 0; i < at_first.objects.size(); ++i)
         EXPECT_EQ(session.scene().objects[i].to_world, at_first.objects[i].to_world);
 
-    run(session, kAfter);
-    Session one(at_first, camera, settings_of(11)), other(at_first, camera, settings_of(12));
-    run(one, kAfter);
-    run(other, kAfter);
-    const Image a = session.cycle().picture(), b = one.cycle().picture(),
-                c = other.cycle().picture();
-    expect_law({difference(a, b, 1), difference(a, b, 8), difference(b, c, 1), difference(b, c, 8)},
-               "a thousand edits");
+    expect_law(session, kAfter, "a thousand edits");
 }
 
 }  // namespace

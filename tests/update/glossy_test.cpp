@@ -138,6 +138,22 @@ TEST(Glossy, OnlyRoughGlossIsCached) {
     }
 }
 
+// Gloss is evaluated by 128 samples at least, from the first cycle on: by 32, most vertices of a
+// varnished rail found no lamp, and their noise was taken for detail.
+TEST(Glossy, StartsWithEnoughSamplesToFindLamps) {
+    Studio studio(room(plastic(0.45f)), fixed_size(Scheme::best, Aov::radiance));
+    studio.cycle.look_from(view_of_floor({0, 1.5f, 1.9f}));
+    studio.run(6);
+    const ShadingCache& cache = studio.cycle.cache();
+    std::size_t evaluated = 0;
+    for (std::uint32_t v = 0; v < cache.vertices().size(); ++v)
+        if (const Estimate* e = cache.estimate(VertexId{v}, 2)) {
+            EXPECT_GE(e->samples, 128u);
+            ++evaluated;
+        }
+    EXPECT_GT(evaluated, 10u);
+}
+
 // Glossy light is its eye's: after a move the picture comes to what a fresh cache shows from there,
 // and one that kept what the first eye saw would be 30 % off. Noise is below 2 % in either.
 TEST(Glossy, ACameraMoveLeadsToThePictureOfAFreshCache) {

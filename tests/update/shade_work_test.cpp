@@ -50,7 +50,7 @@ TEST(ShadeWork, AsksOnceForAVertexAndChannel) {
     ShadeWork work(Desk::plans(), 7);
     EXPECT_TRUE(work.evaluate(desk.cache, desk.corner(0), 0));
     EXPECT_FALSE(work.evaluate(desk.cache, desk.corner(0), 0)) << "asked for already";
-    EXPECT_FALSE(work.resample(desk.cache, desk.corner(0), 0)) << "asked for already";
+    EXPECT_FALSE(work.resample(desk.cache, desk.corner(0), 0, 0)) << "asked for already";
     EXPECT_TRUE(work.evaluate(desk.cache, desk.corner(0), 1)) << "another channel";
     EXPECT_TRUE(work.evaluate(desk.cache, desk.corner(1), 0)) << "another vertex";
     EXPECT_EQ(work.points(), 3u);
@@ -72,7 +72,7 @@ TEST(ShadeWork, ContinuesTheSequence) {
     std::uint32_t taken = 0;
     for (int round = 0; round < 12; ++round) {
         ShadeWork work(Desk::plans(), 7);
-        EXPECT_TRUE(work.resample(desk.cache, desk.corner(2), 1));
+        EXPECT_TRUE(work.resample(desk.cache, desk.corner(2), 1, 0));
         work.shade(desk.cache, desk.clerk, 1, 1);
         const ShadeRequest& request = desk.clerk.asked.back();
         EXPECT_EQ(request.light, Light::indirect);
@@ -124,7 +124,7 @@ TEST(ShadeWork, DarknessTakesSamplesToBelieve) {
 
     desk.clerk.answer = Rgb(3);
     ShadeWork more(plans, 7);
-    more.resample(desk.cache, desk.corner(0), 1);
+    more.resample(desk.cache, desk.corner(0), 1, 0);
     more.shade(desk.cache, desk.clerk, 1, 2);
     EXPECT_FALSE(desk.cache.vertex(desk.corner(0)).buried);
 }
