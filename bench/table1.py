@@ -30,7 +30,8 @@ ROWS = {
     "bytes_per_patch": "bytes a patch",
 }
 COLUMNS = {("paper", 1): "paper's scheme, 1 thread", ("paper", 0): "all threads",
-           ("best", 1): "best scheme, 1 thread", ("best", 0): "all threads"}
+           ("best", 1): "best scheme, 1 thread", ("best", 0): "all threads",
+           ("walk", 0): "and along the scene's path"}
 
 
 def figures(path):

@@ -60,8 +60,22 @@ float interpolation_error(const ShadingCache& cache, const Patch& leaf,
     return high - low;
 }
 
+float age_priority(const ShadingCache& cache, const Patch& leaf, const Aging& aging) {
+    if (aging.rates.empty()) return 0;
+    Cycle age = 0;
+    for (int c = 0; c < leaf.corner_count(); ++c)
+        for (int channel = 0; channel < cache.channels(); ++channel) {
+            const Estimate* e = cache.estimate(leaf.corners[c], channel);
+            if (e && e->stale)
+                age = std::max(age, (aging.now - e->shaded_at) & Estimate::kCycleMask);
+        }
+    if (age == 0) return 0;
+    const ObjectId object = cache.surface_point(leaf.corners[0]).object;
+    return aging.rates[index_of(object)] * static_cast<float>(age);
+}
+
 PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map,
-                              const PictureScale& scale, std::uint32_t turn) {
+                              const PictureScale& scale, std::uint32_t turn, const Aging& aging) {
     PriorityMap result;
     result.width = map.width;
     result.height = map.height;
@@ -77,7 +91,8 @@ PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map,
         const PatchId leaf = choose_leaf(fragments, to_unit_float(hash32(turn, p)));
         float& priority = by_patch[index_of(leaf)];
         if (std::isnan(priority)) {
-            priority = interpolation_error(cache, cache.patch(leaf), scale);
+            priority = interpolation_error(cache, cache.patch(leaf), scale) +
+                       age_priority(cache, cache.patch(leaf), aging);
             result.patch_priorities.push_back(priority);
         }
         result.patches[p] = leaf;

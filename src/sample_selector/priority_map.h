@@ -49,10 +49,20 @@ struct PriorityMap {
     }
 };
 
-/// A pixel that shows several leaves, on an outline or through glass, stands for one of them,
-/// chosen in proportion to what it adds to the pixel by a number that depends on `turn` alone.
+/// What ages (5.1, 5.2): priority of a leaf a cycle since its oldest stale corner was shaded, by
+/// object: at least 1 where shading was found to change or depends on the eye that moved, else 0.
+struct Aging {
+    std::span<const float> rates = {};  // by ObjectId; empty: nothing ages
+    Cycle now = 0;
+};
+float age_priority(const ShadingCache& cache, const Patch& leaf, const Aging& aging);
+
+/// Estimated errors and age priorities, added. A pixel that shows several leaves, on an outline or
+/// through glass, stands for one of them, chosen in proportion to what it adds to the pixel by a
+/// number that depends on `turn` alone.
 PriorityMap make_priority_map(const ShadingCache& cache, const IdMap& map,
-                              const PictureScale& scale, std::uint32_t turn);
+                              const PictureScale& scale, std::uint32_t turn,
+                              const Aging& aging = {});
 
 /// The priorities that 4.2 maps to 0 and 1: four standard deviations below and above the average,
 /// each visible patch counting once.

@@ -4,6 +4,8 @@
 #include "update/outdate.h"
 #include "update/update_cycle.h"
 
+#include <algorithm>
+
 namespace chiaro {
 namespace {
 
@@ -11,12 +13,15 @@ namespace {
 // one of what was.
 constexpr float kChanging = 0.1f;
 
+// And from which on a change counts as found: a tenth of the light.
+constexpr float kFound = 0.01f;
+
 }  // namespace
 
 void UpdateCycle::look_from(const View& view) {
     if (view_ && view_->eye() != view.eye() && cache_.has_glossy()) {
-        outdate_gloss(cache_, rays_->scene(), view_->eye(), view.eye(), least_light(gains_.scale),
-                      expected_, settings_.threads);
+        gloss_rates_ = outdate_gloss(cache_, rays_->scene(), view_->eye(), view.eye(),
+                                     least_light(gains_.scale), expected_, settings_.threads);
         edited_ = true;
     }
     view_ = view;
@@ -40,16 +45,31 @@ void UpdateCycle::lower_what_changes() {
     edited_ = false;
     edited_at_ = static_cast<Cycle>(statistics_.cycles);
     stale_ = 1;  // to be counted
-    if (settings_.scheme == Scheme::paper) return;
-    const double seconds = settings_.clean_up_seconds * threads_at_once();
+    const double seconds = start_seconds();
     for (int c = 0; c < cache_.channels(); ++c) {
         std::vector<char> changing;
         for (std::size_t o = 0; o < rays_->scene().objects.size(); ++o)
             changing.push_back(expected_.relative2(static_cast<ObjectId>(o), c) > kChanging);
+        const ChannelPlan& plan = plans_[c];
+        const std::uint32_t samples = settings_.scheme == Scheme::paper
+                                          ? plan.first_samples + plan.indirect_samples
+                                          : kMostFirstSamples * plan.first_samples;
         lower_resolution(cache_, c, changing,
-                         static_cast<std::size_t>(
-                             affordable(c, seconds, kMostFirstSamples * plans_[c].first_samples)));
+                         static_cast<std::size_t>(affordable(c, seconds, samples)));
     }
+}
+
+// 5.2: "the age priority is chosen to be the maximum of the age priorities from view dependence and
+// motion dependence". Objects age that were found to change.
+std::vector<float> UpdateCycle::age_rates() const {
+    std::vector<float> rates(rays_->scene().objects.size(), 0.0f);
+    for (std::size_t o = 0; o < rates.size(); ++o) {
+        if (o < gloss_rates_.size()) rates[o] = gloss_rates_[o];
+        for (int c = 0; c < cache_.channels(); ++c)
+            if (expected_.relative2(static_cast<ObjectId>(o), c) > kFound)
+                rates[o] = std::max(rates[o], 1.0f);
+    }
+    return rates;
 }
 
 // Luminance of what is stale and about to be shaded again; negative where nothing is.

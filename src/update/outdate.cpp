@@ -83,17 +83,19 @@ int first_glossy(const ShadingCache& cache) {
     return c;
 }
 
-// Squared change of what a surface shows, over its square, as the eye moves.
-float change_of_gloss(const ShadingCache& cache, const Scene& scene, VertexId id, Vec3 eye_before,
-                      Vec3 eye) {
+// How glossy it looks, at least 1.
+float gloss_at(const ShadingCache& cache, const Scene& scene, VertexId id) {
+    const Bsdf bsdf = bsdf_at(scene, cache.surface_point(id), cache.on_front(id));
+    return std::max(1.0f, perceived_gloss(bsdf).strength());
+}
+
+// Squared change of what a surface of that gloss shows, over its square, as the eye moves.
+float change_of_gloss(Vec3 place, float gloss, Vec3 eye_before, Vec3 eye) {
     // Of all the gloss there is, a sixth of a radian farther shows something else.
     constexpr float kSharpness = 3;
-    const SurfacePoint at = cache.surface_point(id);
-    const Vec3 p = surface_position(scene, at);
-    const Vec3 before = safe_normalize(eye_before - p, Vec3(1, 0, 0));
-    const float angle = glm::length(before - safe_normalize(eye - p, before));
-    const float gloss = perceived_gloss(bsdf_at(scene, at, cache.on_front(id))).strength();
-    const float change = std::min(1.0f, kSharpness * std::max(1.0f, gloss) * angle);
+    const Vec3 before = safe_normalize(eye_before - place, Vec3(1, 0, 0));
+    const float angle = glm::length(before - safe_normalize(eye - place, before));
+    const float change = std::min(1.0f, kSharpness * gloss * angle);
     return change * change;
 }
 
@@ -147,28 +149,36 @@ void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPla
     }
 }
 
-void outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec3 eye,
-                   const LeastLight& least, ExpectedChange& expected, int threads) {
-    if (!cache.has_glossy()) return;
+std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec3 eye,
+                                 const LeastLight& least, ExpectedChange& expected, int threads) {
+    std::vector<float> rates(scene.objects.size(), 0.0f);
+    if (!cache.has_glossy()) return rates;
     const int glossy = first_glossy(cache);
-    std::vector<float> changes(cache.vertices().size(), 0.0f);
+    std::vector<float> gloss(cache.vertices().size(), 0.0f), changes(gloss.size(), 0.0f);
     parallel_for_ranges(threads, changes.size(), kAtOnce, [&](IndexRange range) {
-        for (std::size_t i = range.begin; i < range.end; ++i)
-            if (const auto id = static_cast<VertexId>(i); cache.evaluated(id, glossy))
-                changes[i] = change_of_gloss(cache, scene, id, eye_before, eye);
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            const auto id = static_cast<VertexId>(i);
+            if (!cache.evaluated(id, glossy)) continue;
+            gloss[i] = gloss_at(cache, scene, id);
+            const Vec3 place = surface_position(scene, cache.surface_point(id));
+            changes[i] = change_of_gloss(place, gloss[i], eye_before, eye);
+        }
     });
 
     double sum = 0, count = 0;
-    for (const float change : changes) {
-        sum += change;
-        count += change > 0 ? 1 : 0;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        if (gloss[i] == 0) continue;
+        float& rate = rates[index_of(cache.surface_point(static_cast<VertexId>(i)).object)];
+        rate = std::max(rate, gloss[i]);
+        sum += changes[i];
+        count += 1;
     }
-    if (count == 0) return;
+    if (count == 0) return rates;
     const auto mean = static_cast<float>(sum / count);
     for (int c = glossy; c < cache.channels(); ++c) expected.expect(scene.objects.size(), c, mean);
     if (mean > kTellsNothing) {
         cache.forget_glossy();
-        return;
+        return rates;
     }
     for (std::size_t i = 0; i < changes.size(); ++i) {
         if (changes[i] == 0) continue;
@@ -181,6 +191,7 @@ void outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec
             cache.outdate(id, c, std::min(most, before + changes[i] * most));
         }
     }
+    return rates;
 }
 
 std::size_t reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,

@@ -35,9 +35,10 @@ void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPla
              int threads);
 
 /// The eye moved: glossy light is stale, the more so the farther the eye has turned round a surface
-/// and the glossier that looks (5.1); forgotten where most shows something else.
-void outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec3 eye,
-                   const LeastLight& least, ExpectedChange& expected, int threads);
+/// and the glossier that looks (5.1); forgotten where most shows something else. Returns how glossy
+/// the glossiest vertex of each object looks, at least 1 (PerceivedGloss::strength()); 0: of none.
+std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec3 eye,
+                                 const LeastLight& least, ExpectedChange& expected, int threads);
 
 /// Takes what was found meanwhile for what is stale still: each of these may be off by as much as
 /// others on its object were, and by more the longer it waits, so that all in view have their turn.

@@ -26,8 +26,10 @@ void UpdateCycle::refine_as_paper() {
     std::vector<SelectedPatch> selected;
     {
         const StepTimer timer(statistics_.timings, Step::sample_selection);
-        const PriorityMap map = make_priority_map(cache_, map_, gains_.scale,
-                                                  static_cast<std::uint32_t>(statistics_.cycles));
+        const auto now = static_cast<std::uint32_t>(statistics_.cycles);
+        const std::vector<float> rates = stale_ > 0 ? age_rates() : std::vector<float>();
+        const PriorityMap map =
+            make_priority_map(cache_, map_, gains_.scale, now, {.rates = rates, .now = now});
         SelectionSettings settings;
         settings.sample_count = settings_.fixed_size
                                     ? kFixedSampleCount
@@ -55,6 +57,19 @@ void UpdateCycle::refine_as_paper() {
     paper_sample_count_ = std::clamp(paper_sample_count_ * factor, 8.0, 1e6);
 }
 
+// Section 5: what was shaded before something moved is shaded again. Returns whether any was.
+bool UpdateCycle::resample_stale(const Patch& patch, ShadeWork& work) const {
+    bool any = false;
+    for (int channel = 0; channel < cache_.channels(); ++channel)
+        for (int c = 0; c < patch.corner_count(); ++c) {
+            const Estimate* e = cache_.estimate(patch.corners[c], channel);
+            if (!e || !e->stale) continue;
+            work.resample(cache_, patch.corners[c], channel, plans_[channel].first_samples);
+            any = true;
+        }
+    return any;
+}
+
 // 3.1: "we either evaluate the shading values for its vertices or subdivide the patch into four
 // children and evaluate the shading values for their vertices", down to one pixel.
 void UpdateCycle::shade_or_subdivide(PatchId id, ShadeWork& work) {
@@ -64,6 +79,7 @@ void UpdateCycle::shade_or_subdivide(PatchId id, ShadeWork& work) {
                 if (cache_.pixels(cache_.patch(id), channel) > 0)
                     work.evaluate(cache_, p.corners[c], channel);
     };
+    if (resample_stale(cache_.patch(id), work)) return;
     if (!all_evaluated(cache_, cache_.patch(id))) {
         evaluate(cache_.patch(id));
     } else if (cache_.patch(id).fragment_count > 1 && cache_.patch(id).divisible()) {

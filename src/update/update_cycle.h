@@ -119,9 +119,11 @@ private:
     double first_picture_share(int channel) const;
     void refine();
     void refine_as_paper();
+    bool resample_stale(const Patch& patch, ShadeWork& work) const;
     void shade_or_subdivide(PatchId patch, ShadeWork& work);
     void age();
     void lower_what_changes();
+    std::vector<float> age_rates() const;
     double affordable(int channel, double seconds, std::uint32_t samples) const;
     std::vector<float> stale_light(const ShadeWork& work, int channel) const;
     void learn_change(const ShadeWork& work, int channel, std::span<const float> before);
@@ -161,11 +163,12 @@ private:
     bool environment_;  // there is one that shines
     std::optional<View> view_;
     enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
-    bool edited_ = false;       // since the last cycle, so that something may be stale
-    bool moving_ = false;       // the scene was, not the camera alone, before the last look
-    Cycle edited_at_ = 0;       // when it last was
-    std::size_t stale_ = 0;     // estimates, when they were counted last
-    ExpectedChange expected_;   // of these
+    bool edited_ = false;             // since the last cycle, so that something may be stale
+    bool moving_ = false;             // the scene was, not the camera alone, before the last look
+    Cycle edited_at_ = 0;             // when it last was
+    std::size_t stale_ = 0;           // estimates, when they were counted last
+    ExpectedChange expected_;         // of these
+    std::vector<float> gloss_rates_;  // by object: age priorities since the eye moved (5.1)
     double outlines_from_ = 0;  // of statistics_.seconds: when outlines of this view are smoothed
 
     Rng rng_;

@@ -72,6 +72,25 @@ TEST(InterpolationError, IsZeroWhereTheCornersAgree) {
     EXPECT_EQ(interpolation_error(cache, cache.patch(root), {}), 0);
 }
 
+// 5.1, 5.2: what is stale ages by its object's rate a cycle, from when its oldest corner was
+// shaded; what is not does not, nor does anything on objects that were not found to change.
+TEST(AgePriority, GrowsWithTheCyclesSinceAStaleCornerWasShaded) {
+    const Scene scene = grid(1, 1);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
+    const Patch& root = cache.patch(front_roots(cache)[0]);
+    for (int c = 0; c < 4; ++c)
+        cache.store(root.corners[c], 0, Rgb(1), 0.1f, 32, static_cast<Cycle>(4 + c));
+    const std::vector<float> rates = {1.5f}, none = {0};
+    EXPECT_EQ(age_priority(cache, root, {.rates = rates, .now = 16}), 0);
+    cache.outdate(root.corners[2], 0, 1);
+    EXPECT_EQ(age_priority(cache, root, {.rates = rates, .now = 16}), 1.5f * 10);
+    cache.outdate(root.corners[0], 0, 1);
+    EXPECT_EQ(age_priority(cache, root, {.rates = rates, .now = 16}), 1.5f * 12);
+    EXPECT_EQ(age_priority(cache, root, {.rates = none, .now = 16}), 0);
+    EXPECT_EQ(age_priority(cache, root, {}), 0);
+}
+
 // Each visible leaf counts once, whatever it covers; pixels without a patch have no priority.
 TEST(PriorityMap, CountsVisibleLeavesOnce) {
     Rng rng(1);

@@ -1,0 +1,193 @@
+// A session that follows edits: what they cannot reach stays, what they reach is shaded again.
+#include "update/session.h"
+
+#include "base/tone_map.h"
+#include "sample_renderer/tiny_scenes.h"
+
+#include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+
+namespace chiaro {
+namespace {
+
+// A hall of 10 x 3 x 10 m with a lamp of 10 cm in the middle of its ceiling and a box of 30 cm on
+// the floor, 2 m from a corner; seen from above the lamp's height.
+constexpr ObjectId kBox{2};
+Scene hall() {
+    Scene scene;
+    tiny::add_room(scene, Vec3(0), Vec3(10, 3, 10), tiny::add_material(scene, Rgb(0.5f)));
+    const MaterialId glow = tiny::add_material(scene, Rgb(0), Rgb(20'000));
+    tiny::add_quad(scene, {4.95f, 2.9f, 4.95f}, {0.1f, 0, 0}, {0, 0, 0.1f}, glow);
+    tiny::add_box(scene, {2, 0, 2}, {2.3f, 0.3f, 2.3f}, tiny::add_material(scene, Rgb(0.5f)));
+    return scene;
+}
+const Camera kCamera = {.eye = {9.5f, 2.5f, 9.5f}, .target = {2, 0, 2}, .vertical_fov = 70};
+
+SessionSettings settings() {
+    SessionSettings s;
+    s.update.threads = 2;
+    s.update.fixed_size = true;
+    s.width = 80;
+    s.height = 60;
+    return s;
+}
+
+void run(Session& session, int cycles) {
+    for (int i = 0; i < cycles; ++i) session.run();
+}
+
+// "At least 80 % of the diffuse direct values that were valid and unaffected are kept": the box
+// moves by 10 cm. Kept is what has the same samples and the same bits a cycle later, so that what
+// was sampled further meanwhile counts as lost.
+TEST(Session, WhatNoMovedShadowCanReachIsKept) {
+    Session session(hall(), kCamera, settings());
+    run(session, 20);
+    const ShadingCache& cache = session.cycle().cache();
+    std::vector<std::optional<Estimate>> before;
+    for (std::size_t i = 0; i < cache.vertices().size(); ++i) {
+        const Estimate* e = cache.estimate(static_cast<VertexId>(i), 0);
+        before.push_back(e ? std::optional(*e) : std::nullopt);
+    }
+    session.apply(SetTransform{kBox, glm::translate(Mat4(1), Vec3(0.1f, 0, 0))});
+    session.run();
+
+    std::size_t valid = 0, kept = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (!before[i]) continue;
+        ++valid;
+        const Estimate* e = cache.estimate(static_cast<VertexId>(i), 0);
+        kept += e && !e->stale && e->samples == before[i]->samples && e->mean == before[i]->mean;
+    }
+    EXPECT_GT(valid, 200u);
+    EXPECT_GT(static_cast<double>(kept), 0.8 * static_cast<double>(valid));
+}
+
+// Light is linear: a lamp of a third of the power leaves a third of everything, at once within the
+// noise of the first picture (5 %) and without a trace of what was three times as bright.
+TEST(Session, ADimmedLampLeavesNothingOfWhatItWas) {
+    Session session(hall(), kCamera, settings());
+    run(session, 20);
+    const Image before = session.cycle().picture();
+    session.apply(SetEmission{ObjectId{1}, Rgb(1.0f / 3)});
+    run(session, 20);
+    const Image after = session.cycle().picture();
+    double sum_before = 0, sum_after = 0;
+    for (std::size_t i = 0; i < before.pixels.size(); ++i) {
+        sum_before += luminance(before.pixels[i]);
+        sum_after += luminance(after.pixels[i]);
+        EXPECT_LT(luminance(after.pixels[i]), 0.6f * luminance(before.pixels[i]) + 0.1f);
+    }
+    EXPECT_NEAR(sum_after / sum_before, 1.0 / 3, 0.05 / 3);
+}
+
+// Every estimate in view that an edit has outdated is sampled again in the end, also one that an
+// edit hardly changes: 400 cycles after a wall far behind the eye was painted, none is left.
+TEST(Session, AllThatIsStaleInViewHasItsTurn) {
+    Scene scene = hall();
+    const MaterialId far = tiny::add_material(scene, Rgb(0.5f));
+    tiny::add_quad(scene, {9.9f, 0, 9.9f}, {0, 0.2f, 0}, {-0.2f, 0, 0}, far);
+    Session session(std::move(scene), kCamera, settings());
+    run(session, 10);
+    Material painted = session.scene().material(far);
+    painted.base_color = Rgb(0.4f);
+    session.apply(SetMaterial{far, painted});
+    session.run();
+    EXPECT_GT(session.cycle().stale(), 100u);
+    run(session, 400);
+
+    const ShadingCache& cache = session.cycle().cache();
+    std::size_t stale = 0;
+    for (const Patch& patch : cache.patches()) {
+        if (!patch.is_leaf() || patch.fragment_count == 0) continue;
+        for (int c = 0; c < patch.corner_count(); ++c)
+            for (int channel = 0; channel < cache.channels(); ++channel)
+                if (const Estimate* e = cache.estimate(patch.corners[c], channel))
+                    stale += e->stale && !cache.vertex(patch.corners[c]).buried;
+    }
+    EXPECT_EQ(stale, 0u);
+}
+
+// The paper's scheme finds what changed by chance and by aging, and comes to the same: a dimmed
+// lamp leaves a third of the light, within the noise of its 100 and 400 samples (3 %).
+TEST(Session, ThePapersSchemeFollowsToo) {
+    SessionSettings paper = settings();
+    paper.update.scheme = Scheme::paper;
+    paper.renderer = RendererName::path;
+    Session session(hall(), kCamera, paper);
+    run(session, 10);
+    const Image before = session.cycle().picture();
+    session.apply(SetEmission{ObjectId{1}, Rgb(1.0f / 3)});
+    session.apply(SetTransform{kBox, glm::translate(Mat4(1), Vec3(0.1f, 0, 0))});
+    run(session, 40);
+    session.apply(SetTransform{kBox, Mat4(1)});
+    run(session, 40);
+    const Image after = session.cycle().picture();
+    double sum_before = 0, sum_after = 0;
+    for (std::size_t i = 0; i < before.pixels.size(); ++i) {
+        sum_before += luminance(before.pixels[i]);
+        sum_after += luminance(after.pixels[i]);
+    }
+    EXPECT_NEAR(sum_after / sum_before, 1.0 / 3, 0.03 / 3);
+}
+
+// A polished ball that comes into a scene without gloss needs a channel that the cache does not
+// have; the session makes another cache, and the ball shines.
+TEST(Session, WhatNeedsAnotherChannelGetsIt) {
+    Session session(hall(), kCamera, settings());
+    run(session, 2);
+    EXPECT_FALSE(session.cycle().cache().has_glossy());
+    AddObject added;
+    added.object.name = "glossy";
+    added.mesh = session.scene().meshes[index_of(session.scene().objects[index_of(kBox)].mesh)];
+    for (Primitive& p : added.mesh->primitives) p.material = MaterialId{0};
+    added.materials.resize(1);
+    added.materials[0].gloss = tiny::metal(0.4f);
+    added.object.to_world = glm::translate(Mat4(1), Vec3(1, 0, 1));
+    const Edit undo = session.apply(added);
+    run(session, 2);
+    EXPECT_TRUE(session.cycle().cache().has_glossy());
+    EXPECT_EQ(session.scene().objects.size(), 4u);
+    session.apply(undo);
+    run(session, 2);
+    EXPECT_FALSE(session.scene().objects[3].shown);
+}
+
+// The same edits between the same cycles give the same bits on any number of threads.
+TEST(Session, EditsGiveTheSameBitsOnAnyNumberOfThreads) {
+    std::vector<Image> pictures;
+    for (const int threads : {1, 3}) {
+        SessionSettings s = settings();
+        s.update.threads = threads;
+        Session session(hall(), kCamera, s);
+        run(session, 6);
+        session.apply(SetTransform{kBox, glm::translate(Mat4(1), Vec3(1, 0, 0))});
+        run(session, 4);
+        session.apply(SetEmission{ObjectId{1}, Rgb(2)});
+        Camera nearer = kCamera;
+        nearer.eye -= Vec3(1, 0, 1);
+        session.apply(SetCamera{nearer});
+        run(session, 6);
+        pictures.push_back(session.cycle().picture());
+    }
+    for (std::size_t i = 0; i < pictures[0].pixels.size(); ++i)
+        ASSERT_EQ(pictures[0].pixels[i], pictures[1].pixels[i]) << "pixel " << i;
+}
+
+// A lamp that swings, moved before each of 80 cycles: memory is what one place of it needs, within
+// a half.
+TEST(Session, ALampThatSwingsLeavesNoMemory) {
+    Session swung(hall(), kCamera, settings());
+    run(swung, 20);
+    const std::size_t at_rest = swung.cycle().bytes();
+    for (int i = 0; i < 80; ++i) {
+        const float x = std::sin(0.1f * static_cast<float>(i));
+        swung.apply(SetTransform{ObjectId{1}, glm::translate(Mat4(1), Vec3(x, 0, 0))});
+        swung.run();
+    }
+    EXPECT_LT(static_cast<double>(swung.cycle().bytes()), 1.5 * static_cast<double>(at_rest));
+}
+
+}  // namespace
+}  // namespace chiaro
