@@ -22,8 +22,9 @@ void ExpectedChange::expect(std::size_t objects, int channel, float relative2) {
     channels_[channel].resize(objects);
     for (Evidence& e : channels_[channel]) {
         e.prior = std::max(relative2, 0.5f * e.mean());
-        e.sum *= 0.5f;
-        e.count *= 0.5f;
+        const float kept = std::min(0.5f, kPriorCount / std::max(e.count, 1.0f));
+        e.sum *= kept;
+        e.count *= kept;
     }
 }
 

@@ -135,7 +135,8 @@ void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPla
     for (std::size_t i = 0; i < judged.size(); ++i) {
         const auto id = static_cast<VertexId>(i);
         const bool geometry = change.geometry && judged[i].close;
-        if (cache.vertex(id).buried && (geometry || cache.dark(id))) {
+        const CacheVertex& vertex = cache.vertex(id);
+        if ((geometry && (vertex.buried || vertex.exposed)) || (vertex.buried && cache.dark(id))) {
             cache.forget(id);
             continue;
         }

@@ -131,6 +131,8 @@ void UpdateCycle::run() {
             const double seconds_of_map = seconds_since(start_time);
             restart_polish();
             start();
+            // While somebody drags a chair, every cycle is the first of a view.
+            if (stale_ > 0) refine_by_scheme();
             stage_ = Stage::covered;
             outlines_from_ = statistics_.seconds + seconds_since(start_time) +
                              seconds_before_outlines(seconds_of_map);
@@ -150,12 +152,16 @@ void UpdateCycle::run() {
             stage_ = Stage::refining;
             break;
         default:
-            settings_.scheme == Scheme::paper ? refine_as_paper() : refine();
+            refine_by_scheme();
             polish();
     }
     age();
     ++statistics_.cycles;
     statistics_.seconds += seconds_since(start_time);
+}
+
+void UpdateCycle::refine_by_scheme() {
+    settings_.scheme == Scheme::paper ? refine_as_paper() : refine();
 }
 
 ShadeWork UpdateCycle::new_work() const {

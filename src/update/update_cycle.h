@@ -117,6 +117,7 @@ private:
     std::vector<VertexId> evaluated_first(const ShadeWork& work, int channel) const;
     double start_seconds() const;
     double first_picture_share(int channel) const;
+    void refine_by_scheme();
     void refine();
     void refine_as_paper();
     bool resample_stale(const Patch& patch, ShadeWork& work) const;

@@ -31,6 +31,15 @@ TEST(ExpectedChange, EditsThatGoOnKeepHalfOfWhatWasFound) {
     EXPECT_FLOAT_EQ(change.relative2(ObjectId{0}, 0), (8 * 0.5f * before + 4) / 12);
 }
 
+// However much was found of a harmless edit, it does not drown what the next one lets expect.
+TEST(ExpectedChange, TheNextEditIsExpectedAnew) {
+    ExpectedChange change;
+    change.expect(1, 0, 0.02f);
+    for (int i = 0; i < 10'000; ++i) change.found(ObjectId{0}, 0, 0);
+    change.expect(1, 0, 1);
+    EXPECT_NEAR(change.relative2(ObjectId{0}, 0), 0.5f, 1e-3f);
+}
+
 // Noise is subtracted from what is found, so that nothing may be less than that; and one place that
 // was nearly black before counts as a few.
 TEST(ExpectedChange, NothingIsTheLeast) {

@@ -175,6 +175,20 @@ TEST(Session, EditsGiveTheSameBitsOnAnyNumberOfThreads) {
         ASSERT_EQ(pictures[0].pixels[i], pictures[1].pixels[i]) << "pixel " << i;
 }
 
+// A box that is dragged on and on shades again what it reaches meanwhile, not only once it rests:
+// of values that each of 30 steps outdates, most were shaded since the first.
+TEST(Session, WhatIsDraggedIsShadedMeanwhile) {
+    Session session(hall(), kCamera, settings());
+    run(session, 20);
+    const std::size_t points = session.cycle().statistics().points_shaded;
+    for (int i = 0; i < 30; ++i) {
+        const float x = 0.02f * static_cast<float>(i);
+        session.apply(SetTransform{kBox, glm::translate(Mat4(1), Vec3(x, 0, 0))});
+        session.run();
+    }
+    EXPECT_GT(session.cycle().statistics().points_shaded, points + 30 * 20);
+}
+
 // A lamp that swings, moved before each of 80 cycles: memory is what one place of it needs, within
 // a half.
 TEST(Session, ALampThatSwingsLeavesNoMemory) {
