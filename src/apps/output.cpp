@@ -28,14 +28,14 @@ void check_outputs(const Options& options) {
                     "name another file");
 }
 
-void save_picture(const Options& options, const Image& picture) {
-    if (lower_extension(options.output) == ".exr") {
-        write_exr(options.output, picture);
+void save_picture(const std::string& file, const Options& options, const Image& picture) {
+    if (lower_extension(file) == ".exr") {
+        write_exr(file, picture);
         return;
     }
     const float exposure =
         options.exposure ? std::exp2(*options.exposure) : automatic_exposure(picture);
-    write_png(options.output, tone_mapped(picture, exposure));
+    write_png(file, tone_mapped(picture, exposure));
 }
 
 std::string statistics_json(const UpdateCycle& cycle, const RunFigures& figures) {

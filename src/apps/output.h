@@ -13,8 +13,8 @@ namespace chiaro {
 /// Throws the Error that writing the options' outputs would end in, before any work is done.
 void check_outputs(const Options& options);
 
-/// Writes a linear picture: .exr as it is, .png through the tone map.
-void save_picture(const Options& options, const Image& picture);
+/// Writes a linear picture: .exr as it is, .png through the tone map at the options' exposure.
+void save_picture(const std::string& file, const Options& options, const Image& picture);
 
 /// What was reached when a picture of a replay was taken.
 struct FrameFigures {

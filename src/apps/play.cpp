@@ -5,7 +5,6 @@
 #include "apps/output.h"
 #include "apps/render_settings.h"
 #include "base/error.h"
-#include "base/tone_map.h"
 #include "import/image_file.h"
 #include "import/output_file.h"
 #include "import/resolve_edits.h"
@@ -13,7 +12,6 @@
 #include "update/session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -25,6 +23,9 @@ constexpr double kSecondsAfterLast = 2;
 
 // What a cycle of fixed size stands for [s].
 constexpr double kFixedCycle = 0.05;
+
+// Each picture is written both tone-mapped and as it is.
+constexpr const char* kEndings[] = {".png", ".exr"};
 
 // What happens when, in seconds from the start.
 struct Timeline {
@@ -98,10 +99,8 @@ std::string frame_path(const Options& options, std::size_t number, const char* e
 }
 
 void save_frame(const Options& options, std::size_t number, const Image& picture) {
-    write_exr(frame_path(options, number, ".exr"), picture);
-    const float exposure =
-        options.exposure ? std::exp2(*options.exposure) : automatic_exposure(picture);
-    write_png(frame_path(options, number, ".png"), tone_mapped(picture, exposure));
+    for (const char* ending : kEndings)
+        save_picture(frame_path(options, number, ending), options, picture);
 }
 
 void check_folder(const Options& options, std::size_t frames) {
@@ -111,7 +110,7 @@ void check_folder(const Options& options, std::size_t frames) {
         throw Error("-o", "'" + options.output + "' is no folder and cannot be made one",
                     "name a folder for the pictures");
     for (std::size_t i = 0; i < frames; ++i)
-        for (const char* ending : {".png", ".exr"}) check_writable(frame_path(options, i, ending));
+        for (const char* ending : kEndings) check_writable(frame_path(options, i, ending));
     if (!options.statistics.empty()) check_replaceable(options.statistics);
 }
 
@@ -123,11 +122,8 @@ FrameFigures figures_of(const UpdateCycle& cycle, double time, double seconds) {
 // size, what they stand for.
 RunFigures play(Session& session, Player& player, const Timeline& timeline,
                 const Options& options) {
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
-    const auto elapsed = [&] {
-        return std::chrono::duration<double>(Clock::now() - start).count();
-    };
+    const auto start = std::chrono::steady_clock::now();
+    const auto elapsed = [&] { return seconds_since(start); };
     const auto now = [&] {
         return options.fixed_cycles
                    ? kFixedCycle * static_cast<double>(session.cycle().statistics().cycles)

@@ -47,7 +47,7 @@ int reference_command(const Options& options) {
         bar.show(std::max(static_cast<double>(done) / spp, elapsed() / seconds),
                  std::to_string(done) + " samples a pixel");
     } while (!interrupted() && elapsed() < seconds && static_cast<int>(renderer.samples()) < spp);
-    save_picture(options, renderer.image());
+    save_picture(options.output, options, renderer.image());
     return 0;
 }
 

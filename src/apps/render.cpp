@@ -70,7 +70,7 @@ int render_command(const Options& options) {
     Session session(std::move(scene), camera, settings);
     catch_interrupts();
     const RunFigures figures = run_cycles(session.cycle(), options);
-    save_picture(options, session.cycle().picture());
+    save_picture(options.output, options, session.cycle().picture());
     if (!options.statistics.empty())
         replace_file(options.statistics, statistics_json(session.cycle(), figures));
     return 0;

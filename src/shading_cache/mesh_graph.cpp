@@ -1,6 +1,7 @@
 #include "shading_cache/mesh_graph.h"
 
 #include "base/parallel.h"
+#include "shading_cache/arrays.h"
 #include "shading_cache/mesh_levels.h"
 #include "shading_cache/weld.h"
 
@@ -13,11 +14,6 @@ namespace {
 constexpr std::size_t kSmallMesh = 100'000;
 
 constexpr float kTopCellsOfDiagonal = 10;
-
-template <typename T>
-std::size_t held(const std::vector<T>& array) {
-    return array.capacity() * sizeof(T);
-}
 
 // How much longer the longest edge of a unit cube gets.
 float largest_scale(const Mat4& to_world) {
@@ -57,8 +53,8 @@ std::size_t corner_count(const Mesh& mesh) {
 }
 
 std::size_t MeshGraph::bytes() const {
-    return held(vertex_of_corner) + held(corner_of_vertex) + held(level) + held(first_parent) +
-           held(parents) + held(weights);
+    return bytes_of(vertex_of_corner) + bytes_of(corner_of_vertex) + bytes_of(level) +
+           bytes_of(first_parent) + bytes_of(parents) + bytes_of(weights);
 }
 
 MeshGraph make_mesh_graph(const Mesh& mesh, const LevelSettings& settings, int threads) {
@@ -93,7 +89,7 @@ void MeshGraphs::add_meshes(const Scene& scene, int threads) {
 }
 
 std::size_t MeshGraphs::bytes() const {
-    std::size_t total = held(graphs_);
+    std::size_t total = bytes_of(graphs_);
     for (const MeshGraph& graph : graphs_) total += graph.bytes();
     return total;
 }
