@@ -129,9 +129,12 @@ float seconds_of_more(const Estimate& e, int channel, std::uint32_t of_new,
 std::uint32_t samples_of_new(const ShadingCache& cache, std::span<const VertexId> around,
                              int channel, const GainSettings& settings) {
     std::uint32_t fewest = 0;
-    for (const VertexId vertex : around)
-        if (const Estimate* e = cache.estimate(vertex, channel); e && !e->stale)
-            fewest = fewest == 0 ? e->samples : std::min<std::uint32_t>(fewest, e->samples);
+    for (const VertexId vertex : around) {
+        const Estimate* e = cache.estimate(vertex, channel);
+        // Buried ones are not sampled on, however much those round them are.
+        if (!e || e->stale || cache.vertex(vertex).buried) continue;
+        fewest = fewest == 0 ? e->samples : std::min<std::uint32_t>(fewest, e->samples);
+    }
     return std::clamp(fewest, settings.first_samples[channel], kMostOfNew);
 }
 

@@ -132,7 +132,8 @@ public:
 
     /// Merges `samples` further samples with their `mean` and the luminance variance of that mean;
     /// they replace a stale estimate. The first time, and then, notes the surplus over the parents'
-    /// prediction. Checks: finite, samples > 0.
+    /// prediction; later less of it, if that turns out to have been noise. Checks: finite, samples
+    /// > 0.
     void store(VertexId vertex, int channel, Rgb mean, float variance, std::uint32_t samples,
                Cycle now);
     /// An edit has reached what an estimate, if there is one, tells: it is stale, and may be off by
@@ -227,6 +228,7 @@ private:
     std::optional<Rgb> predicted(VertexId vertex, int channel) const;
     void resolve_hollow(VertexId vertex, Shading shading);
     void resolve_hollow(VertexId vertex);
+    void set_buried(VertexId vertex, bool buried);
     float first_surplus(VertexId vertex, int channel, Rgb mean, float variance) const;
     void note_change(VertexId vertex, int channel);
     void resolve_vertex(VertexId vertex, int channel);

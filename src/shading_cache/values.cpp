@@ -31,10 +31,13 @@ void ShadingCache::store(VertexId id, int channel, Rgb mean, float variance, std
         e.variance = old_part * old_part * e.variance + new_part * new_part * variance;
         e.samples = std::min(e.samples + samples, Estimate::kMostSamples) & Estimate::kMostSamples;
         e.shaded_at = now & Estimate::kCycleMask;
-        if (e.stale) {
-            e.stale = 0;
-            e.surplus = first_surplus(id, channel, mean, variance);
-        }
+        const float surplus = first_surplus(id, channel, e.mean, e.variance);
+        // More samples tell what of it was noise.
+        if (e.stale)
+            e.surplus = surplus;
+        else if (e.surplus != Estimate::kUnknown)
+            e.surplus = std::min<float>(e.surplus, surplus);
+        e.stale = 0;
     }
     resolve_hollow(id);
     resolve_vertex(id, channel);
@@ -106,8 +109,8 @@ void ShadingCache::forget(VertexId id, std::uint8_t channels) {
 void ShadingCache::forget(VertexId id) {
     note_forgotten(id, kAllChannels);
     estimates_.forget(id, kAllChannels);
-    vertices_[index_of(id)].buried = vertices_[index_of(id)].exposed = 0;
-    resolve_vertex(id);
+    vertices_[index_of(id)].exposed = 0;
+    set_buried(id, false);
 }
 
 void ShadingCache::note_forgotten(VertexId id, std::uint8_t channels) {
@@ -116,15 +119,18 @@ void ShadingCache::note_forgotten(VertexId id, std::uint8_t channels) {
 }
 
 void ShadingCache::mark_buried(VertexId id) {
-    if (vertex(id).exposed) return;
-    vertices_[index_of(id)].buried = 1;
-    resolve_vertex(id);
+    if (!vertex(id).exposed) set_buried(id, true);
 }
 
 void ShadingCache::unmark_buried(VertexId id) {
-    if (!vertex(id).buried) return;
-    vertices_[index_of(id)].buried = 0;
+    if (vertex(id).buried) set_buried(id, false);
+}
+
+// Its children believe it more or less than before, in all channels, whatever it shows.
+void ShadingCache::set_buried(VertexId id, bool buried) {
+    vertices_[index_of(id)].buried = buried ? 1 : 0;
     resolve_vertex(id);
+    for (int c = 0; c < channels(); ++c) note_change(id, c);
 }
 
 bool ShadingCache::dark(VertexId id) const {
@@ -180,19 +186,24 @@ bool ShadingCache::tells(VertexId id, int channel) const {
     return !hollow(id, shading(channel)) || (!vertex(id).buried && evaluated(id, channel));
 }
 
-// The weighted mean of those parents that tell something; nothing if none does.
+// The weighted mean of those parents that tell something; nothing if none does. A buried one tells
+// what its own parents do, who are farther off, and counts only where no other does.
 std::optional<Rgb> ShadingCache::predicted(VertexId id, int channel) const {
-    Rgb sum(0);
-    int weight = 0;
+    struct Sum {
+        Rgb value = Rgb(0);
+        int weight = 0;
+    } lit, buried;
     const Parents parents = this->parents(id);
     for (std::size_t i = 0; i < parents.size(); ++i) {
         if (!tells(parents[i], channel)) continue;
+        Sum& sum = vertex(parents[i]).buried ? buried : lit;
         const int w = parents.whole_weight(i);
-        sum += static_cast<float>(w) * unpack_rgb9e5(shown_[channel].of(parents[i]));
-        weight += w;
+        sum.value += static_cast<float>(w) * unpack_rgb9e5(shown_[channel].of(parents[i]));
+        sum.weight += w;
     }
-    if (weight == 0) return std::nullopt;
-    return sum * (shown_unit_ / static_cast<float>(weight));
+    const Sum& sum = lit.weight > 0 ? lit : buried;
+    if (sum.weight == 0) return std::nullopt;
+    return sum.value * (shown_unit_ / static_cast<float>(sum.weight));
 }
 
 // Takes the channel's value from where it now comes.

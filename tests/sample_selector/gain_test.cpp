@@ -268,5 +268,14 @@ TEST(Gain, NewVerticesStartAsTheirCornersStand) {
     }
 }
 
+// A buried corner stays at the samples that told so, and does not speak of what its neighbours
+// need.
+TEST(Gain, NewVerticesDoNotStartAsBuriedCornersStand) {
+    Square s(100);
+    for (int c = 0; c < 4; ++c) s.cache.store(s.corners[c], 0, Rgb(1), 0, c == 2 ? 64 : 1024, 1);
+    s.cache.mark_buried(s.corners[2]);
+    EXPECT_EQ(samples_of_new(s.cache, s.root, 0, settings()), 1024u);
+}
+
 }  // namespace
 }  // namespace chiaro

@@ -40,6 +40,28 @@ TEST(Buried, TakesTheParentsPrediction) {
     EXPECT_EQ(s.cache.shown(midpoint, 0).value, Rgb(8));
 }
 
+// What a buried parent predicts is its own parents' light, from twice as far: a wall's vertices
+// above a skirting take after those of the wall, not after what is interpolated behind the
+// skirting.
+TEST(Buried, TellsNothingWhereAnotherParentIsLit) {
+    Square s;
+    for (int c = 0; c < 4; ++c) s.cache.store(s.corners[c], 0, Rgb(c < 2 ? 8.0f : 64.0f), 0, 1, 1);
+    const Patch divided = s.cache.patch(s.cache.subdivide(s.root));
+    const VertexId midpoint = divided.corners[1], centre = divided.corners[2];
+    s.cache.store(midpoint, 0, Rgb(8), 0, 1, 1);
+    s.cache.store(centre, 0, Rgb(0), 0, 1, 1);
+    s.cache.mark_buried(centre);
+    EXPECT_EQ(s.cache.shown(centre, 0).value, Rgb(36));
+    const VertexId between =
+        s.cache.patch(s.cache.subdivide(s.cache.patch(s.root).first_child)).corners[2];
+    s.cache.resolve();
+    EXPECT_EQ(s.cache.parents(between).size(), 4u);
+    EXPECT_LT(luminance(s.cache.shown(between, 0).value), 36);
+    s.cache.store(s.cache.parents(between)[3], 0, Rgb(8), 0, 1, 1);
+    s.cache.resolve();
+    EXPECT_EQ(s.cache.shown(between, 0).value, Rgb(8));
+}
+
 // A buried corner of the mesh has no parents: it is hollow and leaves the interpolation, whose
 // other weights are scaled up. Equal light at the other corners is then equal light everywhere.
 TEST(Buried, HollowCornersLeaveTheInterpolation) {

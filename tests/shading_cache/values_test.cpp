@@ -147,13 +147,25 @@ TEST(Values, AMissWithinTheNoiseIsNoSurplus) {
     EXPECT_EQ(dark.cache.estimate(dark.midpoint, 0)->surplus, 0);
 }
 
-// The surplus is noted once, when the prediction was a prediction.
-TEST(Values, FurtherSamplesKeepTheFirstSurplus) {
+// Of four replicates that all missed what is bright, the variance is small and the miss seems sure.
+// Further samples that find it take the surplus back.
+TEST(Values, FurtherSamplesTellWhatOfTheSurplusWasNoise) {
     Square s;
-    s.store_corners({2, 2, 2, 2});
-    s.cache.store(s.midpoint, 0, Rgb(8), 0, 1, 1);
-    s.cache.store(s.midpoint, 0, Rgb(2), 0, 99, 2);
-    EXPECT_NEAR(s.cache.estimate(s.midpoint, 0)->surplus, 6, 1e-5f);
+    s.store_corners({8, 8, 8, 8});
+    s.cache.store(s.midpoint, 0, Rgb(2), 0, 128, 1);
+    EXPECT_NEAR(s.cache.estimate(s.midpoint, 0)->surplus, 6, 0.03f);
+    s.cache.store(s.midpoint, 0, Rgb(12), 0, 128, 2);
+    EXPECT_NEAR(s.cache.estimate(s.midpoint, 0)->surplus, 1, 0.03f);
+}
+
+// They never raise it: once the parents' light has changed too, it says nothing of what lies
+// between.
+TEST(Values, FurtherSamplesDoNotRaiseTheSurplus) {
+    Square s;
+    s.store_corners({8, 8, 8, 8});
+    s.cache.store(s.midpoint, 0, Rgb(7), 0, 128, 1);
+    s.cache.store(s.midpoint, 0, Rgb(1), 0, 128, 2);
+    EXPECT_NEAR(s.cache.estimate(s.midpoint, 0)->surplus, 1, 0.01f);
 }
 
 // Channels have values of their own; the total is their sum.
