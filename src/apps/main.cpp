@@ -89,6 +89,11 @@ void add_play_command(CLI::App& app, Options& o, Run& run) {
     play.add_flag("--fixed-cycles", o.fixed_cycles,
                   "cycles of a fixed size, each 0.05 s of the script: the same pictures on any "
                   "machine, not in real time");
+    play.add_option(
+            "--fade-in", o.fade_in,
+            "cycles in which new light comes in by nine tenths, so that nothing pops; 0: at "
+            "once")
+        ->check(CLI::Range(0, 1000));
     add_scheme_options(play, o);
     play.footer(
         "Example:\n  chiaro play builtin:room --animation path --script edits.json -o frames");

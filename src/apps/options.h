@@ -36,6 +36,7 @@ struct Options {
     std::string edits;
     std::string script, animation;  // play
     bool fixed_cycles = false;
+    int fade_in = 0;  // frames
 
     std::optional<double> time;            // seconds after loading
     std::optional<std::uint64_t> samples;  // points shaded

@@ -131,14 +131,18 @@ RunFigures play(Session& session, Player& player, const Timeline& timeline,
     };
     ProgressBar bar;
     RunFigures figures;
+    std::optional<FadeIn> fade;
+    if (options.fade_in > 0) fade.emplace(options.fade_in);
     while (figures.frames.size() < timeline.frames.size() && !interrupted()) {
         player.advance(now());
         session.run();
+        if (fade) fade->advance(session.cycle().cache(), session.threads());
         if (session.cycle().statistics().cycles == 1) figures.first_picture_seconds = elapsed();
         while (figures.frames.size() < timeline.frames.size() &&
                timeline.frames[figures.frames.size()] <= now()) {
             const double time = timeline.frames[figures.frames.size()];
-            save_frame(options, figures.frames.size(), session.cycle().picture());
+            save_frame(options, figures.frames.size(),
+                       session.cycle().picture(fade ? &*fade : nullptr));
             figures.frames.push_back(figures_of(session.cycle(), time, elapsed()));
         }
         bar.show(timeline.frames.back() > 0 ? now() / timeline.frames.back() : 1,

@@ -193,13 +193,13 @@ ChancePass look_again(ShadingCache& cache, const RayCaster& rays, const View& vi
     return seen;
 }
 
-Image draw(const ShadingCache& cache, const IdMap& map, int threads) {
+Image draw(const ShadingCache& cache, const IdMap& map, int threads, const FadeIn* fade) {
     Image picture = map.background;
     parallel_for(threads, static_cast<std::size_t>(map.height), [&](std::size_t y) {
         const std::size_t first = y * static_cast<std::size_t>(map.width);
         for (std::size_t p = first; p < first + static_cast<std::size_t>(map.width); ++p)
             for (const Fragment& f : map.at_pixel(static_cast<std::uint32_t>(p)))
-                picture.pixels[p] += shown_by(cache, f);
+                picture.pixels[p] += shown_by(cache, f, fade);
     });
     return picture;
 }

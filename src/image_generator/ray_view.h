@@ -60,7 +60,8 @@ ChancePass look_again(ShadingCache& cache, const RayCaster& rays, const View& vi
                       const RayViewSettings& settings, std::span<const ChancePixel> pixels,
                       std::uint32_t pass);
 
-/// The picture of an attached map: what its fragments show, over the background.
-Image draw(const ShadingCache& cache, const IdMap& map, int threads);
+/// The picture of an attached map: what its fragments show, over the background; with `fade`, as
+/// far as that has come.
+Image draw(const ShadingCache& cache, const IdMap& map, int threads, const FadeIn* fade = nullptr);
 
 }  // namespace chiaro

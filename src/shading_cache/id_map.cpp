@@ -111,10 +111,11 @@ void hand_to_leaf(const ShadingCache& cache, Fragment& fragment) {
     }
 }
 
-Rgb shown_by(const ShadingCache& cache, const Fragment& f) {
+Rgb shown_by(const ShadingCache& cache, const Fragment& f, const FadeIn* fade) {
     Rgb sum(0);
-    if (f.reflectance != Rgb(0)) sum += f.reflectance * irradiance_at(cache, f.patch, f.local);
-    if (f.gloss != Rgb(0)) sum += f.gloss * glossy_at(cache, f.patch, f.local);
+    if (f.reflectance != Rgb(0))
+        sum += f.reflectance * irradiance_at(cache, f.patch, f.local, fade);
+    if (f.gloss != Rgb(0)) sum += f.gloss * glossy_at(cache, f.patch, f.local, fade);
     return sum;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/image.h"
-#include "shading_cache/shading_cache.h"
+#include "shading_cache/fade_in.h"
 
 #include <vector>
 
@@ -69,8 +69,9 @@ PatchId subdivide_seen(ShadingCache& cache, IdMap& map, PatchId leaf, Cycle now)
 /// Moves a fragment that names a patch and a place on it down to the leaf there.
 void hand_to_leaf(const ShadingCache& cache, Fragment& fragment);
 
-/// What the fragment shows of the cache [cd/m2 a channel; lux in a picture of irradiance].
-Rgb shown_by(const ShadingCache& cache, const Fragment& fragment);
+/// What the fragment shows of the cache [cd/m2 a channel; lux in a picture of irradiance]; with
+/// `fade`, as far as that has come.
+Rgb shown_by(const ShadingCache& cache, const Fragment& fragment, const FadeIn* fade = nullptr);
 
 /// Fragments that lie on `patch` or below it, as indices into map.fragments.
 std::span<const std::uint32_t> fragments_of(const IdMap& map, const Patch& patch);

@@ -39,8 +39,11 @@ FanPlace fan_place(bool quad, Vec2 p) {
 
 namespace {
 
-Rgb shown_at(const ShadingCache& cache, PatchId leaf, Vec2 local, Shading shading) {
-    const auto shown = [&](VertexId v) { return cache.shown_total(v, shading); };
+Rgb shown_at(const ShadingCache& cache, PatchId leaf, Vec2 local, Shading shading,
+             const FadeIn* fade) {
+    const auto shown = [&](VertexId v) {
+        return fade ? fade->shown_total(v, shading) : cache.shown_total(v, shading);
+    };
     const Patch& patch = cache.patch(leaf);
     const int n = patch.corner_count();
     FanPlace place = fan_place(n == 4, local);
@@ -70,12 +73,12 @@ Rgb shown_at(const ShadingCache& cache, PatchId leaf, Vec2 local, Shading shadin
 
 }  // namespace
 
-Rgb irradiance_at(const ShadingCache& cache, PatchId leaf, Vec2 local) {
-    return shown_at(cache, leaf, local, Shading::irradiance);
+Rgb irradiance_at(const ShadingCache& cache, PatchId leaf, Vec2 local, const FadeIn* fade) {
+    return shown_at(cache, leaf, local, Shading::irradiance, fade);
 }
 
-Rgb glossy_at(const ShadingCache& cache, PatchId leaf, Vec2 local) {
-    return shown_at(cache, leaf, local, Shading::glossy);
+Rgb glossy_at(const ShadingCache& cache, PatchId leaf, Vec2 local, const FadeIn* fade) {
+    return shown_at(cache, leaf, local, Shading::glossy, fade);
 }
 
 }  // namespace chiaro

@@ -27,6 +27,7 @@ void ShadingCache::collapse(PatchId id) {
 }
 
 void ShadingCache::pack() {
+    ++packs_;
     // What the roots still reach stays, and all vertices that these patches and their graph need.
     std::vector<char> patch_kept(patches_.size(), 0);
     for (const PatchId root : roots_)

@@ -75,6 +75,8 @@ public:
 
     /// Gives up what was collapsed and moves the rest together, in order. All ids change.
     void pack();
+    /// How often that was.
+    std::size_t packs() const { return packs_; }
 
     /// What a vertex's values are predicted from. Valid until vertices or patches are added.
     Parents parents(VertexId vertex) const {
@@ -261,6 +263,7 @@ private:
     float shown_unit_ = 0x1p-60f;     // a power of two; raised when something brighter comes
 
     std::vector<std::pair<VertexId, int>> forgotten_;  // take_forgotten()
+    std::size_t packs_ = 0;
 
     static constexpr std::size_t kNothing = ~std::size_t{0};
     std::vector<std::uint8_t> changed_;     // by vertex: bit c, in channel c

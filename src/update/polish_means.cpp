@@ -36,7 +36,7 @@ void PolishMeans::add(std::span<const Rgb> light) {
     ++pass_;
 }
 
-void PolishMeans::show(const ShadingCache& cache, const IdMap& map, int threads,
+void PolishMeans::show(const ShadingCache& cache, const IdMap& map, int threads, const FadeIn* fade,
                        Image& picture) const {
     constexpr std::size_t kBlock = 1024;
     parallel_for(threads, (windows_.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
@@ -50,7 +50,7 @@ void PolishMeans::show(const ShadingCache& cache, const IdMap& map, int threads,
             Rgb chance =
                 glm::max(map.background.pixels[pixel.pixel] - pixel.steady_background, Rgb(0));
             for (const Fragment& f : map.at_pixel(pixel.pixel))
-                (f.by_chance ? chance : steady) += shown_by(cache, f);
+                (f.by_chance ? chance : steady) += shown_by(cache, f, fade);
             const auto looks = static_cast<float>(1 + passes_in_windows(passes));
             picture.pixels[pixel.pixel] = steady + (chance + complete + filled) / looks;
         }

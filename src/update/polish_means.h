@@ -34,7 +34,8 @@ public:
     void add(std::span<const Rgb> light);
 
     /// Puts the means into a picture of the map, in pixels that a pass has looked at.
-    void show(const ShadingCache& cache, const IdMap& map, int threads, Image& picture) const;
+    void show(const ShadingCache& cache, const IdMap& map, int threads, const FadeIn* fade,
+              Image& picture) const;
 
     std::size_t bytes() const { return windows_.capacity() * sizeof(Windows); }
 

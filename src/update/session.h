@@ -31,6 +31,7 @@ public:
     /// One cycle of the update loop on the scene as it is by now.
     void run();
 
+    int threads() const { return settings_.update.threads; }
     const Scene& scene() const { return scene_; }
     const Camera& camera() const { return camera_; }
     UpdateCycle& cycle() { return *cycle_; }

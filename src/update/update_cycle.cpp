@@ -217,10 +217,10 @@ int UpdateCycle::threads_at_once() const {
     return std::min(settings_.threads, hardware_threads());
 }
 
-Image UpdateCycle::picture() {
+Image UpdateCycle::picture(const FadeIn* fade) {
     if (points_since_refresh_ > 0) cache_.resolve();
-    Image picture = draw(cache_, map_, settings_.threads);
-    polish_.show(cache_, map_, settings_.threads, picture);
+    Image picture = draw(cache_, map_, settings_.threads, fade);
+    polish_.show(cache_, map_, settings_.threads, fade, picture);
     return picture;
 }
 

@@ -81,8 +81,9 @@ public:
     /// One cycle. The first after look_from() ends with a picture that covers the whole view.
     void run();
 
-    /// The picture as it is now.
-    Image picture();
+    /// The picture as it is now; with `fade`, which has seen the cache as it is, as far as that has
+    /// come.
+    Image picture(const FadeIn* fade = nullptr);
 
     const ShadingCache& cache() const { return cache_; }
     const IdMap& id_map() const { return map_; }
