@@ -1,6 +1,7 @@
 #include "scene/edit.h"
 
 #include "base/error.h"
+#include "scene/bsdf.h"
 
 #include <algorithm>
 #include <tuple>
@@ -86,16 +87,27 @@ private:
     }
 };
 
-// Whether a change of the material may change what rays pass.
-bool passes_otherwise(const Material& a, const Material& b) {
+// Whether a change of the material may change which rays go on at it.
+bool stops_otherwise(const Material& a, const Material& b) {
     const auto key = [](const Material& m) {
         const Gloss& g = m.gloss;
         const bool glass = g.model != GlossModel::none && g.transmission > 0;
         return std::tuple(m.alpha_mode, m.double_sided, glass, glass && g.thin);
     };
-    return key(a) != key(b) ||
-           (a.see_through() && (a.alpha != b.alpha || a.alpha_cutoff != b.alpha_cutoff ||
-                                a.base_color_texture.texture != b.base_color_texture.texture));
+    return key(a) != key(b);
+}
+
+// Whether it may change how much of the light gets through that goes on straight: by holes, or as
+// through a pane, whose tint is in the base colour or beside it.
+bool passes_otherwise(const Material& a, const Material& b) {
+    const auto holes = [](const Material& m) {
+        return std::tuple(m.alpha_mode, m.alpha, m.alpha_cutoff, m.base_color_texture);
+    };
+    const auto pane = [](const Material& m) {
+        return std::tuple(m.base_color, m.base_color_texture, m.gloss);
+    };
+    return ((a.see_through() || b.see_through()) && holes(a) != holes(b)) ||
+           ((may_pass_straight(a) || may_pass_straight(b)) && pane(a) != pane(b));
 }
 
 struct Effect {
@@ -125,7 +137,8 @@ struct Effect {
         const Material& before = scene.material(edit.material);
         const bool shines = before.emissive() || edit.value.emissive();
         return {.lights = shines,
-                .geometry = passes_otherwise(before, edit.value),
+                .geometry = stops_otherwise(before, edit.value),
+                .passing = passes_otherwise(before, edit.value),
                 .material = edit.material};
     }
     EditEffect operator()(const AddObject& edit) const {

@@ -26,6 +26,8 @@ struct Gloss {
     float transmission = 0;           // KHR_materials_transmission; MTL illum 4, 6, 7: 1
     Rgb transmission_color = Rgb(1);  // MTL Tf
     bool thin = true;  // light goes straight on, as through a pane; false: the surface of a solid
+
+    bool operator==(const Gloss&) const = default;
 };
 
 struct Material {

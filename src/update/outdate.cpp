@@ -23,7 +23,7 @@ constexpr float kIndirectByObjects = 0.02f;
 float change_to_expect(Light light, const SceneChange& change) {
     const bool indirect = light == Light::indirect;
     if (change.lights) return indirect ? kIndirectByLights : kByLights;
-    if (light == Light::direct) return change.geometry ? kInTheWay : 0.0f;
+    if (light == Light::direct) return change.geometry || change.passing ? kInTheWay : 0.0f;
     return change.any() ? kIndirectByObjects : 0.0f;
 }
 

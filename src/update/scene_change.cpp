@@ -14,7 +14,7 @@ SceneChange change_of(std::span<const EditEffect> effects) {
         change.lights |= effect.lights;
         change.geometry |= effect.geometry;
         change.materials |= effect.material != MaterialId::none;
-        change.passing |= effect.geometry && effect.object == ObjectId::none;
+        change.passing |= effect.passing;
         if (!effect.geometry || effect.object == ObjectId::none) continue;
         change.moved.push_back(effect.object);
         for (const auto& box : {effect.before, effect.after})

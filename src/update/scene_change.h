@@ -9,11 +9,11 @@
 namespace chiaro {
 
 struct SceneChange {
-    bool lights = false;     // something shines otherwise or from elsewhere
-    bool geometry = false;   // an object moved, came or went, or lets rays pass otherwise
-    bool materials = false;  // a surface reflects otherwise
-    bool passing = false;    // a surface that stands lets rays pass otherwise: it may be anywhere
-    std::vector<Box> boxes;  // where something was, and where it is now (world space)
+    bool lights = false;          // something shines otherwise or from elsewhere
+    bool geometry = false;        // an object moved, came or went, or rays pass it otherwise
+    bool materials = false;       // a surface reflects otherwise
+    bool passing = false;         // one that stands lets other light through: it may be anywhere
+    std::vector<Box> boxes;       // where something was, and where it is now (world space)
     std::vector<ObjectId> moved;  // in order, each once
 
     bool any() const { return lights || geometry || materials; }

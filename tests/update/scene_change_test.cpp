@@ -55,13 +55,13 @@ TEST(SceneChange, ACameraChangesNothing) {
     EXPECT_FALSE(change_of({&effect, 1}).any());
 }
 
-// A material that lets rays pass otherwise may be anywhere.
+// A material that lets other light through may be anywhere.
 TEST(SceneChange, AMaterialMayBeAnywhere) {
     EditEffect effect;
     effect.material = MaterialId{0};
     EXPECT_TRUE(change_of({&effect, 1}).materials);
     EXPECT_FALSE(change_of({&effect, 1}).passing);
-    effect.geometry = true;
+    effect.passing = true;
     EXPECT_TRUE(change_of({&effect, 1}).passing);
 }
 

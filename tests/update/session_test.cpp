@@ -83,6 +83,35 @@ TEST(Session, ADimmedLampLeavesNothingOfWhatItWas) {
     EXPECT_NEAR(sum_after / sum_before, 1.0 / 3, 0.05 / 3);
 }
 
+double mean_light(const Image& picture) {
+    double sum = 0;
+    for (const Rgb& p : picture.pixels) sum += luminance(p);
+    return sum / static_cast<double>(picture.pixels.size());
+}
+
+// A pane under the lamp, clear and then smoky: what the black hall below gets straight from the
+// lamp becomes what a fresh session finds, within the noise of few samples (3 %).
+TEST(Session, ATintedPaneDimsWhatIsBehindIt) {
+    Scene scene = hall();
+    for (Material& material : scene.materials) material.base_color = Rgb(0);
+    const MaterialId pane = tiny::add_glossy(scene, Rgb(1), tiny::glass(0, true));
+    tiny::add_quad(scene, {4, 2.7f, 4}, {2, 0, 0}, {0, 0, 2}, pane);
+    SessionSettings irradiance = settings();
+    irradiance.update.aov = Aov::irradiance;
+    Session session(std::move(scene), kCamera, irradiance);
+    run(session, 10);
+    const double clear = mean_light(session.cycle().picture());
+    Material smoky = session.scene().material(pane);
+    smoky.base_color = Rgb(0.25f);
+    session.apply(SetMaterial{pane, smoky});
+    run(session, 20);
+    Session fresh(session.scene(), kCamera, irradiance);
+    run(fresh, 20);
+    const double truth = mean_light(fresh.cycle().picture());
+    EXPECT_LT(truth, clear / 3);
+    EXPECT_NEAR(mean_light(session.cycle().picture()), truth, 0.03 * truth);
+}
+
 // Every estimate in view that an edit has outdated is sampled again in the end, also one that an
 // edit hardly changes: 400 cycles after a wall far behind the eye was painted, none is left.
 TEST(Session, AllThatIsStaleInViewHasItsTurn) {
