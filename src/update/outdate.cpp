@@ -1,7 +1,6 @@
 #include "update/outdate.h"
 
 #include "base/parallel.h"
-#include "sample_renderer/flat_mirrors.h"
 #include "scene/perceived_gloss.h"
 
 #include <algorithm>
@@ -47,14 +46,9 @@ struct Reach {
         : scene(s),
           change(c),
           lights(s),
-          any_direct(c.lights || c.passing || by_mirrors(s, c)),
+          any_direct(c.lights || c.passing),
           margin(1e-3f * bounds(s).diagonal()) {}
 
-    // Lamps' light comes straight by way of mirrors too, which may be what moved.
-    static bool by_mirrors(const Scene& scene, const SceneChange& change) {
-        const bool lamps = std::ranges::any_of(scene.lights, &PunctualLight::lit);
-        return (change.geometry || change.materials) && lamps && !find_flat_mirrors(scene).empty();
-    }
     bool in_place_of_moved(Vec3 p) const {
         return std::ranges::any_of(change.boxes,
                                    [&](const Box& box) { return within(box, p, margin); });
