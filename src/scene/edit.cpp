@@ -10,14 +10,20 @@
 namespace chiaro {
 namespace {
 
-template <typename T, typename Id>
-T& at(std::vector<T>& values, Id id, const char* otherwise) {
+auto& at(auto& values, auto id, const char* otherwise) {
     check(index_of(id) < values.size(), otherwise);
     return values[index_of(id)];
 }
 
-Object& object_at(Scene& scene, ObjectId id) {
+// Of what an edit names; `scene` may be const.
+auto& object_at(auto& scene, ObjectId id) {
     return at(scene.objects, id, "apply: object out of range");
+}
+auto& light_at(auto& scene, LightId id) {
+    return at(scene.lights, id, "apply: light out of range");
+}
+auto& material_at(auto& scene, MaterialId id) {
+    return at(scene.materials, id, "apply: material out of range");
 }
 
 struct Apply {
@@ -48,13 +54,12 @@ struct Apply {
     }
     Edit operator()(const SetLight& edit) const {
         check_light(edit.value);
-        PunctualLight& light = at(scene.lights, edit.light, "apply: light out of range");
-        return SetLight{edit.light, std::exchange(light, edit.value)};
+        return SetLight{edit.light, std::exchange(light_at(scene, edit.light), edit.value)};
     }
     Edit operator()(const SetMaterial& edit) const {
         check_material(scene, edit.value);
-        Material& material = at(scene.materials, edit.material, "apply: material out of range");
-        return SetMaterial{edit.material, std::exchange(material, edit.value)};
+        return SetMaterial{edit.material,
+                           std::exchange(material_at(scene, edit.material), edit.value)};
     }
     Edit operator()(const AddObject& edit) const {
         Object object = edit.object;
@@ -85,6 +90,30 @@ private:
         scene.meshes.push_back(std::move(mesh));
         return static_cast<MeshId>(scene.meshes.size() - 1);
     }
+};
+
+struct ChangesNothing {
+    const Scene& scene;
+    const Camera& camera;
+
+    bool operator()(const SetCamera& edit) const { return edit.camera == camera; }
+    bool operator()(const SetTransform& edit) const {
+        return object_at(scene, edit.object).to_world == edit.to_world;
+    }
+    bool operator()(const SetShown& edit) const {
+        return object_at(scene, edit.object).shown == edit.shown;
+    }
+    bool operator()(const SetEmission& edit) const {
+        return object_at(scene, edit.object).emission_scale == edit.scale;
+    }
+    bool operator()(const SetLight& edit) const {
+        return light_at(scene, edit.light) == edit.value;
+    }
+    bool operator()(const SetMaterial& edit) const {
+        return material_at(scene, edit.material) == edit.value;
+    }
+    bool operator()(const AddObject&) const { return false; }
+    bool operator()(const AddLight&) const { return false; }
 };
 
 // Whether a change of the material may change which rays go on at it.
@@ -175,6 +204,10 @@ private:
 
 Edit apply(Scene& scene, Camera& camera, const Edit& edit) {
     return std::visit(Apply{scene, camera}, edit);
+}
+
+bool changes_nothing(const Scene& scene, const Camera& camera, const Edit& edit) {
+    return std::visit(ChangesNothing{scene, camera}, edit);
 }
 
 EditEffect effect_of(const Scene& scene, const Edit& edit) {

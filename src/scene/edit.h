@@ -59,6 +59,9 @@ using Edit = std::variant<SetCamera, SetTransform, SetShown, SetEmission, SetLig
 /// not singular.
 Edit apply(Scene& scene, Camera& camera, const Edit& edit);
 
+/// True if the edit sets what already is: there is nothing to follow. Checks: ids as apply().
+bool changes_nothing(const Scene& scene, const Camera& camera, const Edit& edit);
+
 /// What an edit may change of what is derived from the scene. Light lists (AreaLights, LitScene)
 /// are to be made anew if `lights`; what knows where surfaces are and whether rays pass them, as
 /// RayCaster and lists of mirrors, is to follow if `geometry`.

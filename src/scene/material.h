@@ -45,6 +45,7 @@ struct Material {
 
     bool emissive() const { return max_component(emission) > 0; }
     bool see_through() const { return alpha_mode != AlphaMode::opaque; }
+    bool operator==(const Material&) const = default;
 };
 
 }  // namespace chiaro

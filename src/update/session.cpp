@@ -18,6 +18,7 @@ Session::Session(Scene scene, const Camera& camera, const SessionSettings& setti
 }
 
 Edit Session::apply(const Edit& edit) {
+    if (changes_nothing(scene_, camera_, edit)) return edit;
     const EditEffect effect = effect_of(scene_, edit);
     Edit inverse = chiaro::apply(scene_, camera_, edit);
     follow(edit);

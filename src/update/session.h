@@ -25,7 +25,8 @@ public:
     Session& operator=(const Session&) = delete;
 
     /// Makes an edit, which the next cycle follows, and returns the one that takes it back. Rigid
-    /// motion moves an instance and no geometry. Checks: as chiaro::apply().
+    /// motion moves an instance and no geometry; an edit that sets what already is, as an animation
+    /// of what rests does, costs nothing. Checks: as chiaro::apply().
     Edit apply(const Edit& edit);
 
     /// One cycle of the update loop on the scene as it is by now.

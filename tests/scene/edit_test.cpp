@@ -68,6 +68,16 @@ TEST(Edit, ItsInverseTakesItBack) {
     }
 }
 
+// An edit changes nothing once it was made.
+TEST(Edit, MadeAgainChangesNothing) {
+    Stage stage;
+    for (const Edit& edit : changes(stage)) {
+        EXPECT_FALSE(changes_nothing(stage.scene, stage.camera, edit));
+        stage.apply(edit);
+        EXPECT_TRUE(changes_nothing(stage.scene, stage.camera, edit));
+    }
+}
+
 TEST(Edit, AdditionsStandAtTheEndAndAreHiddenByTheirInverse) {
     Stage stage;
     const std::size_t objects = stage.scene.objects.size();

@@ -184,6 +184,24 @@ TEST(Session, WhatNeedsAnotherChannelGetsIt) {
     EXPECT_FALSE(session.scene().objects[3].shown);
 }
 
+// What is set to what it is, and set back, is no edit: the picture has the same bits as if nobody
+// had touched anything, and nothing is stale.
+TEST(Session, WhatRestsIsNoEdit) {
+    Session touched(hall(), kCamera, settings());
+    Session left_alone(hall(), kCamera, settings());
+    for (int i = 0; i < 10; ++i) {
+        const Edit undo = touched.apply(SetTransform{kBox, Mat4(1)});
+        touched.apply(SetCamera{kCamera});
+        touched.apply(SetMaterial{MaterialId{0}, touched.scene().material(MaterialId{0})});
+        touched.apply(undo);
+        touched.run();
+        left_alone.run();
+        EXPECT_EQ(touched.cycle().stale(), 0u);
+    }
+    EXPECT_EQ(touched.scene().objects[index_of(kBox)].to_world, Mat4(1));
+    EXPECT_EQ(touched.cycle().picture().pixels, left_alone.cycle().picture().pixels);
+}
+
 // The same edits between the same cycles give the same bits on any number of threads.
 TEST(Session, EditsGiveTheSameBitsOnAnyNumberOfThreads) {
     std::vector<Image> pictures;
