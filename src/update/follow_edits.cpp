@@ -32,6 +32,7 @@ void UpdateCycle::scene_changed(std::span<const EditEffect> effects, SampleRende
     renderer_ = &renderer;
     const SceneChange change = change_of(effects);
     if (!change.any()) return;
+    follow_plans();
     cache_.follow_scene();
     outdate(cache_, rays_->scene(), plans_, change, least_light(gains_.scale), expected_,
             settings_.threads);

@@ -49,12 +49,18 @@ void Session::light_anew() {
                               settings_.update.threads, short_seed(settings_.update.seed));
 }
 
+// With the channels that the scene needs by now; what was shaded is lost, what was counted is not.
+void Session::begin_anew() {
+    const Statistics so_far = cycle_->statistics();
+    cycle_.emplace(rays_, graphs_, *renderer_, open_sides_, settings_.update).carry_on(so_far);
+    cycle_->look_from(view());
+}
+
 void Session::run() {
     if (!effects_.empty()) {
         if (change_of(effects_).any()) light_anew();
         if (cycle_->lacks_channel())
-            cycle_.emplace(rays_, graphs_, *renderer_, open_sides_, settings_.update)
-                .look_from(view());
+            begin_anew();
         else
             cycle_->scene_changed(effects_, *renderer_);
         effects_.clear();

@@ -41,6 +41,7 @@ private:
     View view() const { return {camera_, settings_.width, settings_.height}; }
     void follow(const Edit& edit);
     void light_anew();
+    void begin_anew();
 
     SessionSettings settings_;
     Scene scene_;

@@ -75,8 +75,11 @@ public:
     void scene_changed(std::span<const EditEffect> effects, SampleRenderer& renderer);
 
     /// A material of the scene, as it is by now, shows light that this cycle has no channel for:
-    /// their number is fixed, and another cycle is to be made.
+    /// their number is fixed, and another cycle is to be made, which carries on.
     bool lacks_channel() const;
+
+    /// Counts on from another cycle's statistics, as this one takes its place: the clock goes on.
+    void carry_on(const Statistics& so_far) { statistics_ = so_far; }
 
     /// One cycle. The first after look_from() ends with a picture that covers the whole view.
     void run();
@@ -105,6 +108,7 @@ private:
     double polish_pixels(std::size_t count);
     void light_surfaces(std::span<const Fragment> fragments, ShadeWork& work);
     void light_pixels(const ChancePass& seen, std::span<Rgb> light);
+    void follow_plans();
     ShadeWork new_work() const;
     void start();
     void attach_front();
