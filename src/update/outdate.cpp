@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace chiaro {
 namespace {
@@ -36,39 +37,45 @@ bool within(const Box& box, Vec3 p, float margin) {
 
 // Where a change may be felt.
 struct Reach {
-    const Scene& scene;
     const SceneChange& change;
-    LightReach lights;
-    bool any_direct;  // direct light may have changed anywhere
-    float margin;
+    std::optional<LightReach> lights;  // where anything may be in their way
+    bool any_direct;                   // direct light may have changed anywhere
+    float margin = 0;
 
-    Reach(const Scene& s, const SceneChange& c)
-        : scene(s),
-          change(c),
-          lights(s),
-          any_direct(c.lights || c.passing),
-          margin(1e-3f * bounds(s).diagonal()) {}
-
+    Reach(const Scene& scene, const SceneChange& c) : change(c), any_direct(c.lights || c.passing) {
+        if (c.boxes.empty()) return;
+        lights.emplace(scene);
+        margin = 1e-3f * bounds(scene).diagonal();
+    }
     bool in_place_of_moved(Vec3 p) const {
         return std::ranges::any_of(change.boxes,
                                    [&](const Box& box) { return within(box, p, margin); });
     }
-    bool direct(const SurfacePoint& at, Vec3 p) const {
-        return any_direct || change.has_moved(at.object) ||
+    bool in_the_way(const SurfacePoint& at, Vec3 p) const {
+        return change.has_moved(at.object) ||
                std::ranges::any_of(change.boxes,
-                                   [&](const Box& box) { return lights.may_cross(p, box); });
+                                   [&](const Box& box) { return lights->may_cross(p, box); });
     }
 };
 
 struct Judgement {
     bool direct = false;  // its direct light may be another
     bool close = false;   // on what moved, or where that was or is now
+    bool forget = false;  // it was buried, exposed or dark, and need not be any more
 };
 
-Judgement judge(const ShadingCache& cache, const Reach& reach, VertexId id) {
+Judgement judge(const ShadingCache& cache, const Scene& scene, const Reach& reach, VertexId id) {
+    const CacheVertex& vertex = cache.vertex(id);
     const SurfacePoint at = cache.surface_point(id);
-    const Vec3 p = surface_position(reach.scene, at);
-    return {reach.direct(at, p), reach.change.has_moved(at.object) || reach.in_place_of_moved(p)};
+    const Vec3 p = surface_position(scene, at);
+    const bool blocked = (!reach.any_direct || vertex.buried) && reach.in_the_way(at, p);
+    Judgement judged;
+    judged.direct = reach.any_direct || blocked;
+    judged.close =
+        reach.change.geometry && (reach.change.has_moved(at.object) || reach.in_place_of_moved(p));
+    judged.forget = (judged.close && (vertex.buried || vertex.exposed)) ||
+                    (vertex.buried && (blocked || reach.change.passing || cache.dark(id)));
+    return judged;
 }
 
 int first_glossy(const ShadingCache& cache) {
@@ -120,27 +127,34 @@ void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPla
         expected.expect(scene.objects.size(), c, change_to_expect(plans[c].light, change));
 
     const Reach reach(scene, change);
-    std::vector<Judgement> judged(cache.vertices().size());
-    parallel_for_ranges(threads, judged.size(), kAtOnce, [&](IndexRange range) {
-        for (std::size_t i = range.begin; i < range.end; ++i)
-            judged[i] = judge(cache, reach, static_cast<VertexId>(i));
+    const auto channels = static_cast<std::size_t>(cache.channels());
+    std::vector<char> forgotten(cache.vertices().size(), 0);
+    std::vector<float> errors(channels * forgotten.size(), 0.0f);  // 0: as it was
+    parallel_for_ranges(threads, forgotten.size(), kAtOnce, [&](IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            const auto id = static_cast<VertexId>(i);
+            const CacheVertex& vertex = cache.vertex(id);
+            if (!cache.evaluated(id) && !vertex.buried && !vertex.exposed) continue;
+            const Judgement judged = judge(cache, scene, reach, id);
+            forgotten[i] = judged.forget ? 1 : 0;
+            if (judged.forget) continue;
+            const ObjectId object = cache.surface_point(id).object;
+            for (std::size_t c = 0; c < channels; ++c) {
+                const auto channel = static_cast<int>(c);
+                if (!cache.evaluated(id, channel)) continue;
+                if (plans[c].light == Light::direct && !judged.direct) continue;
+                const float part = judged.close ? kByLights : expected.relative2(object, channel);
+                errors[channels * i + c] = part * light2(cache, id, channel, least);
+            }
+        }
     });
 
-    for (std::size_t i = 0; i < judged.size(); ++i) {
+    for (std::size_t i = 0; i < forgotten.size(); ++i) {
         const auto id = static_cast<VertexId>(i);
-        const bool geometry = change.geometry && judged[i].close;
-        const CacheVertex& vertex = cache.vertex(id);
-        if ((geometry && (vertex.buried || vertex.exposed)) || (vertex.buried && cache.dark(id))) {
-            cache.forget(id);
-            continue;
-        }
-        const ObjectId object = cache.surface_point(id).object;
-        for (int c = 0; c < cache.channels(); ++c) {
-            if (!cache.evaluated(id, c)) continue;
-            if (plans[c].light == Light::direct && !judged[i].direct) continue;
-            const float part = geometry ? kByLights : expected.relative2(object, c);
-            cache.outdate(id, c, part * light2(cache, id, c, least));
-        }
+        if (forgotten[i]) cache.forget(id);
+        for (std::size_t c = 0; c < channels; ++c)
+            if (const float error2 = errors[channels * i + c]; error2 > 0)
+                cache.outdate(id, static_cast<int>(c), error2);
     }
 }
 

@@ -29,7 +29,7 @@ float light2(const ShadingCache& cache, VertexId vertex, int channel, const Leas
 /// Direct light is stale where lights changed, on what moved, and where a segment to a light
 /// crosses a place that something left or came to; elsewhere it stays. All other light is stale
 /// everywhere, since light goes round corners. What was buried or dark, and may not be any more, is
-/// forgotten.
+/// forgotten: also what is buried by something that stands, where other light may come to it now.
 void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPlan> plans,
              const SceneChange& change, const LeastLight& least, ExpectedChange& expected,
              int threads);
