@@ -17,6 +17,7 @@ constexpr std::size_t kAtOnce = 4096;  // vertices that one thread judges
 // light, and little of what comes from all sides.
 constexpr float kByLights = 1;
 constexpr float kInTheWay = 0.25f;
+constexpr float kByOwnMaterial = 1;  // gloss
 constexpr float kIndirectByLights = 0.25f;
 constexpr float kIndirectByObjects = 0.02f;
 
@@ -25,6 +26,26 @@ float change_to_expect(Light light, const SceneChange& change) {
     if (change.lights) return indirect ? kIndirectByLights : kByLights;
     if (light == Light::direct) return change.geometry || change.passing ? kInTheWay : 0.0f;
     return change.any() ? kIndirectByObjects : 0.0f;
+}
+
+// What a surface shows of its surroundings is all its own material's, not theirs alone.
+void expect_of_repainted(const ShadingCache& cache, const Scene& scene, const SceneChange& change,
+                         ExpectedChange& expected) {
+    if (change.repainted.empty() || !cache.has_glossy()) return;
+    std::vector<char> repainted(scene.materials.size(), 0);
+    for (const MaterialId material : change.repainted) repainted[index_of(material)] = 1;
+    std::vector<char> meshes;
+    for (const Mesh& mesh : scene.meshes)
+        meshes.push_back(std::ranges::any_of(mesh.primitives, [&](const Primitive& primitive) {
+            return repainted[index_of(primitive.material)] != 0;
+        }));
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+        const Object& object = scene.objects[o];
+        if (object.mesh == MeshId::none || !meshes[index_of(object.mesh)]) continue;
+        for (int c = 0; c < cache.channels(); ++c)
+            if (cache.shading(c) == Shading::glossy)
+                expected.expect_of(static_cast<ObjectId>(o), c, kByOwnMaterial);
+    }
 }
 
 // Mean squared change of gloss from which on it is seen anew, as if for the first time.
@@ -125,6 +146,7 @@ void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPla
              int threads) {
     for (int c = 0; c < cache.channels(); ++c)
         expected.expect(scene.objects.size(), c, change_to_expect(plans[c].light, change));
+    expect_of_repainted(cache, scene, change, expected);
 
     const Reach reach(scene, change);
     const auto channels = static_cast<std::size_t>(cache.channels());

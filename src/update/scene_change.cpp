@@ -45,6 +45,7 @@ SceneChange change_of(std::span<const EditEffect> effects) {
         change.lights |= effect.lights;
         change.geometry |= effect.geometry;
         change.materials |= effect.material != MaterialId::none;
+        if (effect.material != MaterialId::none) change.repainted.push_back(effect.material);
         change.passing |= effect.passing;
         if (!effect.geometry || effect.object == ObjectId::none) continue;
         const Places places = {effect.before, effect.after};

@@ -15,6 +15,7 @@ struct SceneChange {
     bool passing = false;         // one that stands lets other light through: it may be anywhere
     std::vector<Box> boxes;       // where something was, or where it is now (world space)
     std::vector<ObjectId> moved;  // in order, each once
+    std::vector<MaterialId> repainted;  // materials that are others now
 
     bool any() const { return lights || geometry || materials; }
     bool has_moved(ObjectId object) const;

@@ -80,6 +80,20 @@ TEST(Outdate, WhatIsBuriedIsJudgedAnewInTheShadow) {
     EXPECT_TRUE(row.cache.vertex(row.at(1, 0)).buried);
 }
 
+// A surface whose own material is another may show something else altogether; what lies beside it,
+// little of it. Direct light knows of no material.
+TEST(Outdate, GlossIsItsOwnMaterials) {
+    Row row;
+    SceneChange change;
+    change.materials = true;
+    change.repainted = {MaterialId{0}};
+    row.outdate(change);
+    EXPECT_GE(row.expected.relative2(ObjectId{0}, 1), 1);
+    EXPECT_LT(row.expected.relative2(ObjectId{1}, 1), 0.1f);
+    EXPECT_FALSE(row.stale(row.at(1, 0), 0));
+    EXPECT_TRUE(row.stale(row.at(1, 0), 1));
+}
+
 // What lets other light through may be anywhere: all that is buried is judged anew.
 TEST(Outdate, WhatIsBuriedIsJudgedAnewWhereOtherLightComesThrough) {
     Row row;
