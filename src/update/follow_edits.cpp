@@ -33,7 +33,7 @@ void UpdateCycle::scene_changed(std::span<const EditEffect> effects, SampleRende
     const SceneChange change = change_of(effects);
     if (!change.any()) return;
     follow_plans();
-    cache_.follow_scene();
+    cache_.follow_scene(change.repainted);
     outdate(cache_, rays_->scene(), plans_, change, least_light(gains_.scale), expected_,
             settings_.threads);
     edited_ = moving_ = true;

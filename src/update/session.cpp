@@ -21,18 +21,17 @@ Edit Session::apply(const Edit& edit) {
     if (changes_nothing(scene_, camera_, edit)) return edit;
     const EditEffect effect = effect_of(scene_, edit);
     Edit inverse = chiaro::apply(scene_, camera_, edit);
-    follow(edit);
+    follow(edit, effect);
     effects_.push_back(effect);
     looks_elsewhere_ |= effect.camera;
     return inverse;
 }
 
 // What must know of each edit at once.
-void Session::follow(const Edit& edit) {
+void Session::follow(const Edit& edit, const EditEffect& effect) {
     if (const auto* moved = std::get_if<SetTransform>(&edit)) rays_.set_transform(moved->object);
     if (const auto* shown = std::get_if<SetShown>(&edit)) rays_.set_shown(shown->object);
-    if (const auto* changed = std::get_if<SetMaterial>(&edit))
-        rays_.set_material(changed->material);
+    if (effect.material != MaterialId::none && effect.geometry) rays_.set_material(effect.material);
     if (std::holds_alternative<AddObject>(edit)) {
         rays_.add_objects();
         open_sides_.add_objects(scene_);

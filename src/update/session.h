@@ -39,7 +39,7 @@ public:
 
 private:
     View view() const { return {camera_, settings_.width, settings_.height}; }
-    void follow(const Edit& edit);
+    void follow(const Edit& edit, const EditEffect& effect);
     void light_anew();
     void begin_anew();
 
