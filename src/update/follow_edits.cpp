@@ -28,9 +28,8 @@ void UpdateCycle::look_from(const View& view) {
     stage_ = Stage::new_view;
 }
 
-void UpdateCycle::scene_changed(std::span<const EditEffect> effects, SampleRenderer& renderer) {
+void UpdateCycle::scene_changed(const SceneChange& change, SampleRenderer& renderer) {
     renderer_ = &renderer;
-    const SceneChange change = change_of(effects);
     if (!change.any()) return;
     follow_plans();
     cache_.follow_scene(change.repainted);

@@ -1,7 +1,6 @@
 #include "update/session.h"
 
 #include "base/random.h"
-#include "update/scene_change.h"
 
 namespace chiaro {
 
@@ -12,7 +11,7 @@ Session::Session(Scene scene, const Camera& camera, const SessionSettings& setti
       rays_(scene_, settings.update.threads, settings.curve_tolerance),
       graphs_(scene_, coarser_levels(settings.update.scheme), settings.update.threads),
       open_sides_(scene_) {
-    light_anew();
+    light_anew(true);
     cycle_.emplace(rays_, graphs_, *renderer_, open_sides_, settings_.update);
     cycle_->look_from(view());
 }
@@ -39,11 +38,11 @@ void Session::follow(const Edit& edit, const EditEffect& effect) {
     }
 }
 
-// Lists of lights and of what shines brightly, and what a renderer remembers, are of the scene as
-// it was.
-void Session::light_anew() {
+// What a renderer remembers is of the scene as it was, and so are, where `lights` are others, their
+// lists.
+void Session::light_anew(bool lights) {
     renderer_.reset();
-    area_lights_.emplace(scene_);
+    if (lights) area_lights_.emplace(scene_);
     renderer_ = make_renderer(settings_.renderer, scene_, rays_, *area_lights_, &open_sides_,
                               settings_.update.threads, short_seed(settings_.update.seed));
 }
@@ -57,11 +56,12 @@ void Session::begin_anew() {
 
 void Session::run() {
     if (!effects_.empty()) {
-        if (change_of(effects_).any()) light_anew();
+        const SceneChange change = change_of(effects_);
+        if (change.any()) light_anew(change.lights);
         if (cycle_->lacks_channel())
             begin_anew();
         else
-            cycle_->scene_changed(effects_, *renderer_);
+            cycle_->scene_changed(change, *renderer_);
         effects_.clear();
     }
     if (looks_elsewhere_) cycle_->look_from(view());

@@ -40,7 +40,7 @@ public:
 private:
     View view() const { return {camera_, settings_.width, settings_.height}; }
     void follow(const Edit& edit, const EditEffect& effect);
-    void light_anew();
+    void light_anew(bool lights);
     void begin_anew();
 
     SessionSettings settings_;

@@ -6,10 +6,10 @@
 #include "sample_selector/select_samples.h"
 #include "sample_selector/sum_tree.h"
 #include "scene/bsdf.h"
-#include "scene/edit.h"
 #include "shading_cache/age_out.h"
 #include "update/expected_change.h"
 #include "update/polish_means.h"
+#include "update/scene_change.h"
 #include "update/shade_work.h"
 #include "update/timings.h"
 
@@ -68,11 +68,10 @@ public:
     /// the eye. Glossy shading is stale if the eye has moved (5.1).
     void look_from(const View& view);
 
-    /// Edits were made since the last cycle, in order: their effects as effect_of() told them
-    /// before each. Rays, open sides and graphs have followed; `renderer`, of the scene as it is,
-    /// shades from now on. What they may have reached is shaded again, and what they cannot have
-    /// reached stays (5.2).
-    void scene_changed(std::span<const EditEffect> effects, SampleRenderer& renderer);
+    /// Edits were made since the last cycle, which change this. Rays, open sides and graphs have
+    /// followed; `renderer`, of the scene as it is, shades from now on. What they may have reached
+    /// is shaded again, and what they cannot have reached stays (5.2).
+    void scene_changed(const SceneChange& change, SampleRenderer& renderer);
 
     /// A material of the scene, as it is by now, shows light that this cycle has no channel for:
     /// their number is fixed, and another cycle is to be made, which carries on.
