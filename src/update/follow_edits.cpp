@@ -19,11 +19,13 @@ constexpr float kFound = 0.01f;
 }  // namespace
 
 void UpdateCycle::look_from(const View& view) {
+    const auto now = static_cast<Cycle>(statistics_.cycles);
     if (view_ && view_->eye() != view.eye() && cache_.has_glossy()) {
-        gloss_rates_ = outdate_gloss(cache_, rays_->scene(), view_->eye(), view.eye(),
+        gloss_rates_ = outdate_gloss(cache_, rays_->scene(), {eye_track_, now, view.eye()},
                                      least_light(gains_.scale), expected_, settings_.threads);
         edited_ = true;
     }
+    eye_track_.move_to(view.eye(), now);
     view_ = view;
     stage_ = Stage::new_view;
 }
@@ -35,6 +37,8 @@ void UpdateCycle::scene_changed(const SceneChange& change, SampleRenderer& rende
     cache_.follow_scene(change.repainted);
     outdate(cache_, rays_->scene(), plans_, change, least_light(gains_.scale), expected_,
             settings_.threads);
+    // Of a motion of the eye that is over.
+    if (stage_ == Stage::refining) gloss_rates_.clear();
     edited_ = moving_ = true;
     if (stage_ != Stage::nothing) stage_ = Stage::new_view;
 }

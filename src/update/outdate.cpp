@@ -180,7 +180,7 @@ void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPla
     }
 }
 
-std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec3 eye,
+std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, const EyeMove& move,
                                  const LeastLight& least, ExpectedChange& expected, int threads) {
     std::vector<float> rates(scene.objects.size(), 0.0f);
     if (!cache.has_glossy()) return rates;
@@ -192,7 +192,8 @@ std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 e
             if (!cache.evaluated(id, glossy)) continue;
             gloss[i] = gloss_at(cache, scene, id);
             const Vec3 place = surface_position(scene, cache.surface_point(id));
-            changes[i] = change_of_gloss(place, gloss[i], eye_before, eye);
+            const Vec3 seen_from = move.track.at(*cache.estimate(id, glossy), move.now);
+            changes[i] = change_of_gloss(place, gloss[i], seen_from, move.eye);
         }
     });
 
@@ -219,7 +220,7 @@ std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 e
             const Estimate* e = cache.estimate(id, c);
             if (!e) continue;
             const float before = e->stale ? static_cast<float>(e->variance) : 0.0f;
-            cache.outdate(id, c, std::min(most, before + changes[i] * most));
+            cache.outdate(id, c, std::max(before, changes[i] * most));
         }
     }
     return rates;

@@ -4,6 +4,7 @@
 #include "sample_selector/priority_map.h"
 #include "scene/light_reach.h"
 #include "update/expected_change.h"
+#include "update/eye_track.h"
 #include "update/scene_change.h"
 #include "update/shade_work.h"
 
@@ -34,10 +35,18 @@ void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPla
              const SceneChange& change, const LeastLight& least, ExpectedChange& expected,
              int threads);
 
-/// The eye moved: glossy light is stale, the more so the farther the eye has turned round a surface
-/// and the glossier that looks (5.1); forgotten where most shows something else. Returns how glossy
-/// the glossiest vertex of each object looks, at least 1 (PerceivedGloss::strength()); 0: of none.
-std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec3 eye,
+/// The eye, which has been on a track until now, has moved.
+struct EyeMove {
+    const EyeTrack& track;
+    Cycle now;
+    Vec3 eye;  // where it is
+};
+
+/// Glossy light is stale, the more so the farther the eye has turned round a surface since that was
+/// shaded, in however small steps, and the glossier it looks (5.1); forgotten where most shows
+/// something else. Returns how glossy the glossiest vertex of each object looks, at least 1
+/// (PerceivedGloss::strength()); 0: of none.
+std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, const EyeMove& move,
                                  const LeastLight& least, ExpectedChange& expected, int threads);
 
 /// Takes what was found meanwhile for what is stale still: each of these may be off by as much as

@@ -8,6 +8,7 @@
 #include "scene/bsdf.h"
 #include "shading_cache/age_out.h"
 #include "update/expected_change.h"
+#include "update/eye_track.h"
 #include "update/polish_means.h"
 #include "update/scene_change.h"
 #include "update/shade_work.h"
@@ -167,11 +168,12 @@ private:
     bool environment_;  // there is one that shines
     std::optional<View> view_;
     enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
-    bool edited_ = false;             // since the last cycle, so that something may be stale
-    bool moving_ = false;             // the scene was, not the camera alone, before the last look
-    Cycle edited_at_ = 0;             // when it last was
-    std::size_t stale_ = 0;           // estimates, when they were counted last
-    ExpectedChange expected_;         // of these
+    bool edited_ = false;      // since the last cycle, so that something may be stale
+    bool moving_ = false;      // the scene was, not the camera alone, before the last look
+    Cycle edited_at_ = 0;      // when it last was
+    std::size_t stale_ = 0;    // estimates, when they were counted last
+    ExpectedChange expected_;  // of these
+    EyeTrack eye_track_;
     std::vector<float> gloss_rates_;  // by object: age priorities since the eye moved (5.1)
     double outlines_from_ = 0;  // of statistics_.seconds: when outlines of this view are smoothed
 

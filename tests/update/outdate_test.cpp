@@ -94,6 +94,36 @@ TEST(Outdate, GlossIsItsOwnMaterials) {
     EXPECT_TRUE(row.stale(row.at(1, 0), 1));
 }
 
+// A walk of small steps shows as much else of what nobody has shaded meanwhile as one long step:
+// after 40 of 3 cm each, as after one of 1.2 m, what was shaded before tells nothing and is
+// forgotten.
+TEST(Outdate, StepsOfAWalkAddUp) {
+    Row row;
+    row.scene.materials[0].gloss = metal(0.25f);
+    EyeTrack track;
+    track.move_to({1, 0, 1}, 1);
+    for (Cycle now = 2; now < 42; ++now) {
+        const Vec3 eye(1 + 0.03f * static_cast<float>(now - 1), 0, 1);
+        outdate_gloss(row.cache, row.scene, {track, now, eye}, row.least, row.expected, 1);
+        track.move_to(eye, now);
+    }
+    for (std::size_t i = 0; i < row.cache.vertices().size(); ++i)
+        EXPECT_FALSE(row.cache.evaluated(static_cast<VertexId>(i), 1));
+}
+
+// The eye is found where it was in each cycle, also where estimates know the lower bits of the
+// cycle alone and the track forgets what none remembers.
+TEST(EyeTrack, IsAsLongAsEstimatesRemember) {
+    EyeTrack track;
+    for (Cycle cycle = 0; cycle < 20'000; cycle += 10)
+        track.move_to(Vec3(static_cast<float>(cycle)), cycle);
+    for (const Cycle cycle : {19'999u, 19'990u, 15'005u, 11'900u}) {
+        Estimate estimate;
+        estimate.shaded_at = cycle & Estimate::kCycleMask;
+        EXPECT_EQ(track.at(estimate, 20'000).x, static_cast<float>(cycle / 10 * 10));
+    }
+}
+
 // What lets other light through may be anywhere: all that is buried is judged anew.
 TEST(Outdate, WhatIsBuriedIsJudgedAnewWhereOtherLightComesThrough) {
     Row row;
