@@ -24,6 +24,7 @@ void UpdateCycle::look_from(const View& view) {
         gloss_rates_ = outdate_gloss(cache_, rays_->scene(), {eye_track_, now, view.eye()},
                                      least_light(gains_.scale), expected_, settings_.threads);
         edited_ = true;
+        gloss_stale_at_ = now;
     }
     eye_track_.move_to(view.eye(), now);
     view_ = view;
@@ -40,6 +41,7 @@ void UpdateCycle::scene_changed(const SceneChange& change, SampleRenderer& rende
     // Of a motion of the eye that is over.
     if (stage_ == Stage::refining) gloss_rates_.clear();
     edited_ = moving_ = true;
+    edited_at_ = gloss_stale_at_ = static_cast<Cycle>(statistics_.cycles);
     if (stage_ != Stage::nothing) stage_ = Stage::new_view;
 }
 
@@ -47,8 +49,7 @@ void UpdateCycle::scene_changed(const SceneChange& change, SampleRenderer& rende
 // is wrong by now, it is shaded at once, as fine as the user's time for it can pay.
 void UpdateCycle::lower_what_changes() {
     edited_ = false;
-    edited_at_ = static_cast<Cycle>(statistics_.cycles);
-    stale_ = 1;  // to be counted
+    stale_ = {1, 1};  // to be counted
     const double seconds = start_seconds();
     for (int c = 0; c < cache_.channels(); ++c) {
         std::vector<char> changing;
@@ -79,7 +80,7 @@ std::vector<float> UpdateCycle::age_rates() const {
 // Luminance of what is stale and about to be shaded again; negative where nothing is.
 std::vector<float> UpdateCycle::stale_light(const ShadeWork& work, int channel) const {
     std::vector<float> light;
-    if (stale_ == 0) return light;
+    if (stale_.all == 0) return light;
     for (const VertexId v : work.vertices(channel)) {
         const Estimate* e = cache_.estimate(v, channel);
         light.push_back(e && e->stale ? luminance(e->mean) : -1.0f);

@@ -105,6 +105,28 @@ int first_glossy(const ShadingCache& cache) {
     return c;
 }
 
+// Channels (bit c: channel c) that the picture shows of a vertex, as a corner of leaves or where
+// such a corner is predicted from it.
+std::vector<std::uint8_t> seen_in_view(const ShadingCache& cache) {
+    std::vector<std::uint8_t> seen(cache.vertices().size(), 0);
+    for (const Patch& patch : cache.patches()) {
+        if (!patch.is_leaf() || patch.fragment_count == 0) continue;
+        std::uint8_t lit = 0;
+        for (int c = 0; c < cache.channels(); ++c)
+            if (cache.pixels(patch, c) > 0) lit |= static_cast<std::uint8_t>(1u << c);
+        for (int i = 0; i < patch.corner_count(); ++i) seen[index_of(patch.corners[i])] |= lit;
+    }
+    for (std::size_t i = seen.size(); i-- > 0;) {  // parents come before children
+        const auto id = static_cast<VertexId>(i);
+        std::uint8_t predicted = seen[i];
+        for (int c = 0; c < cache.channels(); ++c)
+            if (cache.evaluated(id, c)) predicted &= static_cast<std::uint8_t>(~(1u << c));
+        if (predicted == 0) continue;
+        for (const VertexId parent : cache.parents(id)) seen[index_of(parent)] |= predicted;
+    }
+    return seen;
+}
+
 // How glossy it looks, at least 1.
 float gloss_at(const ShadingCache& cache, const Scene& scene, VertexId id) {
     const Bsdf bsdf = bsdf_at(scene, cache.surface_point(id), cache.on_front(id));
@@ -226,11 +248,14 @@ std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, const 
     return rates;
 }
 
-std::size_t reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
-                             const LeastLight& least, Cycle age, int threads) {
+StaleCount reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
+                            const LeastLight& least, const Waiting& waiting, int threads) {
     constexpr float kCyclesToDouble = 16;
     constexpr float kWorthChanging = 1.3f;
-    const float waiting = std::exp2(std::min(static_cast<float>(age) / kCyclesToDouble, 60.0f));
+    const auto growth = [&](int channel) {
+        const auto cycles = static_cast<float>(waiting.of(cache.shading(channel)));
+        return std::exp2(std::min(cycles / kCyclesToDouble, 60.0f));
+    };
 
     const auto channels = static_cast<std::size_t>(cache.channels());
     std::vector<float> errors(channels * cache.vertices().size(), 0.0f);
@@ -243,18 +268,21 @@ std::size_t reconsider_stale(ShadingCache& cache, const ExpectedChange& expected
                 const Estimate* e = cache.estimate(id, channel);
                 if (!e || !e->stale) continue;
                 const ObjectId object = cache.surface_point(id).object;
-                const float part = std::min(1.0f, waiting * expected.relative2(object, channel));
+                const float part =
+                    std::min(1.0f, growth(channel) * expected.relative2(object, channel));
                 errors[channels * i + c] = part * light2(cache, id, channel, least);
             }
         }
     });
 
-    std::size_t stale = 0;
+    const std::vector<std::uint8_t> in_view = seen_in_view(cache);
+    StaleCount stale;
     for (std::size_t k = 0; k < errors.size(); ++k) {
         if (errors[k] == 0) continue;
-        ++stale;
         const auto id = static_cast<VertexId>(k / channels);
         const auto channel = static_cast<int>(k % channels);
+        ++stale.all;
+        if (in_view[k / channels] >> channel & 1 && !cache.vertex(id).buried) ++stale.in_view;
         const float before = cache.estimate(id, channel)->variance;
         const float factor = errors[k] / std::max(before, 1e-30f);
         if (factor > kWorthChanging || factor * kWorthChanging < 1)

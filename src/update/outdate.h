@@ -49,10 +49,21 @@ struct EyeMove {
 std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, const EyeMove& move,
                                  const LeastLight& least, ExpectedChange& expected, int threads);
 
+/// Estimates that are stale.
+struct StaleCount {
+    std::size_t all = 0;
+    std::size_t in_view = 0;  // the picture shows what they tell, not being buried
+};
+
+/// Cycles since light became stale: by edits, and of gloss by the eye's motion too.
+struct Waiting {
+    Cycle irradiance = 0, glossy = 0;
+    Cycle of(Shading shading) const { return shading == Shading::glossy ? glossy : irradiance; }
+};
+
 /// Takes what was found meanwhile for what is stale still: each of these may be off by as much as
 /// others on its object were, and by more the longer it waits, so that all in view have their turn.
-/// `age`: cycles since the edit. Returns how many are stale.
-std::size_t reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
-                             const LeastLight& least, Cycle age, int threads);
+StaleCount reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
+                            const LeastLight& least, const Waiting& waiting, int threads);
 
 }  // namespace chiaro

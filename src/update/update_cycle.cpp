@@ -146,7 +146,7 @@ void UpdateCycle::run() {
             restart_polish();
             start();
             // While somebody drags a chair, every cycle is the first of a view.
-            if (stale_ > 0) refine_by_scheme();
+            if (stale_.in_view > 0) refine_by_scheme();
             stage_ = Stage::covered;
             outlines_from_ = statistics_.seconds + seconds_since(start_time) +
                              seconds_before_outlines(seconds_of_map);

@@ -9,6 +9,7 @@
 #include "shading_cache/age_out.h"
 #include "update/expected_change.h"
 #include "update/eye_track.h"
+#include "update/outdate.h"
 #include "update/polish_means.h"
 #include "update/scene_change.h"
 #include "update/shade_work.h"
@@ -90,8 +91,9 @@ public:
     const ShadingCache& cache() const { return cache_; }
     const IdMap& id_map() const { return map_; }
     const Statistics& statistics() const { return statistics_; }
-    /// Estimates of the scene before the last edits that wait for their turn.
-    std::size_t stale() const { return stale_; }
+    /// Estimates in view of the scene before the last edits, that wait for their turn, when they
+    /// were counted last.
+    std::size_t stale() const { return stale_.in_view; }
     /// Samples that the last cycle of the paper's scheme selected.
     const std::vector<SelectedPixel>& last_selection() const { return selection_; }
     const PictureScale& scale() const { return gains_.scale; }
@@ -168,11 +170,13 @@ private:
     bool environment_;  // there is one that shines
     std::optional<View> view_;
     enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
-    bool edited_ = false;      // since the last cycle, so that something may be stale
-    bool moving_ = false;      // the scene was, not the camera alone, before the last look
-    Cycle edited_at_ = 0;      // when it last was
-    std::size_t stale_ = 0;    // estimates, when they were counted last
-    ExpectedChange expected_;  // of these
+    bool edited_ = false;       // since the last cycle, so that something may be stale
+    bool moving_ = false;       // the scene was, not the camera alone, before the last look
+    Cycle edited_at_ = 0;       // cycle before which the scene last was
+    Cycle gloss_stale_at_ = 0;  // likewise, or the eye moved
+    Cycle reconsider_at_ = 0;   // when stale estimates are looked at again
+    StaleCount stale_;          // when they were counted last
+    ExpectedChange expected_;   // of these
     EyeTrack eye_track_;
     std::vector<float> gloss_rates_;  // by object: age priorities since the eye moved (5.1)
     double outlines_from_ = 0;  // of statistics_.seconds: when outlines of this view are smoothed
