@@ -277,18 +277,21 @@ TEST(Session, EditsGiveTheSameBitsOnAnyNumberOfThreads) {
         ASSERT_EQ(pictures[0].pixels[i], pictures[1].pixels[i]) << "pixel " << i;
 }
 
-// A box that is dragged on and on shades again what it reaches meanwhile, not only once it rests:
-// of values that each of 30 steps outdates, most were shaded since the first.
+// A box that is dragged on and on shades again what it reaches meanwhile, not only once it rests,
+// and in each of 30 steps; also indirect light, of which each step changes little.
 TEST(Session, WhatIsDraggedIsShadedMeanwhile) {
     Session session(hall(), kCamera, settings());
     run(session, 20);
-    const std::size_t points = session.cycle().statistics().points_shaded;
+    const Statistics before = session.cycle().statistics();
     for (int i = 0; i < 30; ++i) {
         const float x = 0.02f * static_cast<float>(i);
         session.apply(SetTransform{kBox, glm::translate(Mat4(1), Vec3(x, 0, 0))});
         session.run();
     }
-    EXPECT_GT(session.cycle().statistics().points_shaded, points + 30 * 20);
+    const Statistics& after = session.cycle().statistics();
+    EXPECT_GT(after.points_shaded, before.points_shaded + 30 * 20);
+    constexpr int kIndirect = 1, kFirstSamples = 64;
+    EXPECT_GT(after.samples[kIndirect], before.samples[kIndirect] + 30 * 20 * kFirstSamples);
 }
 
 // A lamp that swings, moved before each of 80 cycles: memory is what one place of it needs, within
