@@ -19,9 +19,9 @@ constexpr float kChance = 0.03f;
 constexpr std::size_t kVerticesAPoint = 5;
 constexpr std::size_t kVerticesCarriedAPoint = 24;
 
-// Cycles that something stale has waited for each one until all of it is looked at again: it is the
-// less news, the longer it has waited.
-constexpr Cycle kWaitingALook = 8;
+// All that is stale is looked at again once it has waited for so much longer, as a part of how long
+// it has: what changes by then is about the same each time.
+constexpr Cycle kWaitingALook = 8;  // an eighth
 
 // Patches whose gains one thread reckons at once.
 constexpr std::size_t kBlock = 1024;
