@@ -106,12 +106,6 @@ void IrradianceCells::store(CellId id, const CellSamples& added) {
     check(added.samples > 0 && is_finite(added.mean) && std::isfinite(added.deviations),
           "IrradianceCells: samples are not usable");
     IrradianceCell& c = cells_[index_of(id)];
-    if (!known(id)) {
-        c.samples = 0;
-        c.mean = Rgb(0);
-        c.deviations = 0;
-        c.version = version_;
-    }
     // Two sets' deviations add, with those between their means (Chan et al. 1979).
     const double before = c.samples, more = added.samples;
     const double apart = luminance(added.mean) - luminance(c.mean);

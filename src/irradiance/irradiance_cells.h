@@ -59,7 +59,6 @@ struct IrradianceCell {
     float hits = 0;         // rays that ended here
     double deviations = 0;  // sum of squared deviations of samples' luminance [lux^2]
     std::uint32_t samples = 0;
-    std::uint32_t version = 0;  // of the scene that was sampled
 
     /// Of the mean's luminance [lux^2]. Needs two samples.
     double variance() const { return deviations / (double(samples) * (double(samples) - 1)); }
@@ -94,16 +93,11 @@ public:
     /// The cell of a key, made empty if there is none; none if there are kMostCells.
     CellId find_or_add(CellKey key);
     void count_hits(CellId id, float hits) { cells_[index_of(id)].hits += hits; }
-    /// Merges samples of the scene as it is; older ones make way (design, section 5). Checks:
-    /// samples > 0, finite.
+    /// Merges further samples. Checks: samples > 0, finite.
     void store(CellId id, const CellSamples& samples);
 
-    /// True if a cell has samples of the scene as it is.
-    bool known(CellId id) const {
-        return id != CellId::none && cell(id).samples > 0 && cell(id).version == version_;
-    }
-    /// Samples until now were of a scene that has changed since.
-    void outdate() { ++version_; }
+    /// True if a cell has samples.
+    bool known(CellId id) const { return id != CellId::none && cell(id).samples > 0; }
 
 private:
     // The key once more, so that a look-up reads no cell but its own.
@@ -118,7 +112,6 @@ private:
     void grow();
 
     CellGrid grid_;
-    std::uint32_t version_ = 1;  // of the scene
     std::vector<IrradianceCell> cells_;
     std::vector<Slot> slots_;  // open addressing, a power of two, at most half full
 };

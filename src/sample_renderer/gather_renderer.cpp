@@ -141,11 +141,6 @@ SampleCosts GatherRenderer::typical_costs() const {
     return {.direct = 0.12e-6f, .indirect = 0.6e-6f};
 }
 
-void GatherRenderer::scene_changed() {
-    bright_ = bright_surfaces(lit_, threads_);
-    cells_.outdate();
-}
-
 void GatherRenderer::shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) {
     check(requests.size() == results.size(), "shade: one result a request");
     const std::vector<Task> tasks = split_into_tasks(requests);

@@ -19,6 +19,8 @@ namespace chiaro {
 /// calls of shade(), one after the other, give the same bits on any number of threads; but a
 /// request's result depends on what was asked before it.
 ///
+/// Cells know the scene as it is: after an edit, make another renderer.
+///
 /// Thread: as SampleRenderer. Keeps references, as PathRenderer does; of lights it keeps copies.
 class GatherRenderer : public SampleRenderer {
 public:
@@ -27,10 +29,6 @@ public:
     void shade(std::span<const ShadeRequest> requests, std::span<ShadeResult> results) override;
     SampleCosts typical_costs() const override;
     bool remembers() const override { return true; }
-
-    /// Materials or objects are not what they were: what cells know is stale, so that rays are
-    /// traced on until it is known anew. Where lights changed, make another renderer.
-    void scene_changed();
 
     const IrradianceCells& cells() const { return cells_; }
 

@@ -15,6 +15,8 @@ struct Camera {
     Vec3 target = Vec3(0);
     Vec3 up = Vec3(0, 1, 0);
     float vertical_fov = 45;  // degrees, in (0, 180)
+
+    bool operator==(const Camera&) const = default;
 };
 
 /// A camera made ready for one picture size: rays by pixel.

@@ -1,6 +1,7 @@
 #include "scene/edit.h"
 
 #include "base/error.h"
+#include "scene/bsdf.h"
 
 #include <algorithm>
 #include <tuple>
@@ -9,14 +10,20 @@
 namespace chiaro {
 namespace {
 
-template <typename T, typename Id>
-T& at(std::vector<T>& values, Id id, const char* otherwise) {
+auto& at(auto& values, auto id, const char* otherwise) {
     check(index_of(id) < values.size(), otherwise);
     return values[index_of(id)];
 }
 
-Object& object_at(Scene& scene, ObjectId id) {
+// Of what an edit names; `scene` may be const.
+auto& object_at(auto& scene, ObjectId id) {
     return at(scene.objects, id, "apply: object out of range");
+}
+auto& light_at(auto& scene, LightId id) {
+    return at(scene.lights, id, "apply: light out of range");
+}
+auto& material_at(auto& scene, MaterialId id) {
+    return at(scene.materials, id, "apply: material out of range");
 }
 
 struct Apply {
@@ -47,13 +54,12 @@ struct Apply {
     }
     Edit operator()(const SetLight& edit) const {
         check_light(edit.value);
-        PunctualLight& light = at(scene.lights, edit.light, "apply: light out of range");
-        return SetLight{edit.light, std::exchange(light, edit.value)};
+        return SetLight{edit.light, std::exchange(light_at(scene, edit.light), edit.value)};
     }
     Edit operator()(const SetMaterial& edit) const {
         check_material(scene, edit.value);
-        Material& material = at(scene.materials, edit.material, "apply: material out of range");
-        return SetMaterial{edit.material, std::exchange(material, edit.value)};
+        return SetMaterial{edit.material,
+                           std::exchange(material_at(scene, edit.material), edit.value)};
     }
     Edit operator()(const AddObject& edit) const {
         Object object = edit.object;
@@ -86,16 +92,51 @@ private:
     }
 };
 
-// Whether a change of the material may change what rays pass.
-bool passes_otherwise(const Material& a, const Material& b) {
+struct ChangesNothing {
+    const Scene& scene;
+    const Camera& camera;
+
+    bool operator()(const SetCamera& edit) const { return edit.camera == camera; }
+    bool operator()(const SetTransform& edit) const {
+        return object_at(scene, edit.object).to_world == edit.to_world;
+    }
+    bool operator()(const SetShown& edit) const {
+        return object_at(scene, edit.object).shown == edit.shown;
+    }
+    bool operator()(const SetEmission& edit) const {
+        return object_at(scene, edit.object).emission_scale == edit.scale;
+    }
+    bool operator()(const SetLight& edit) const {
+        return light_at(scene, edit.light) == edit.value;
+    }
+    bool operator()(const SetMaterial& edit) const {
+        return material_at(scene, edit.material) == edit.value;
+    }
+    bool operator()(const AddObject&) const { return false; }
+    bool operator()(const AddLight&) const { return false; }
+};
+
+// Whether a change of the material may change which rays go on at it.
+bool stops_otherwise(const Material& a, const Material& b) {
     const auto key = [](const Material& m) {
         const Gloss& g = m.gloss;
         const bool glass = g.model != GlossModel::none && g.transmission > 0;
         return std::tuple(m.alpha_mode, m.double_sided, glass, glass && g.thin);
     };
-    return key(a) != key(b) ||
-           (a.see_through() && (a.alpha != b.alpha || a.alpha_cutoff != b.alpha_cutoff ||
-                                a.base_color_texture.texture != b.base_color_texture.texture));
+    return key(a) != key(b);
+}
+
+// Whether it may change how much of the light gets through that goes on straight: by holes, or as
+// through a pane, whose tint is in the base colour or beside it.
+bool passes_otherwise(const Material& a, const Material& b) {
+    const auto holes = [](const Material& m) {
+        return std::tuple(m.alpha_mode, m.alpha, m.alpha_cutoff, m.base_color_texture);
+    };
+    const auto pane = [](const Material& m) {
+        return std::tuple(m.base_color, m.base_color_texture, m.gloss);
+    };
+    return ((a.see_through() || b.see_through()) && holes(a) != holes(b)) ||
+           ((may_pass_straight(a) || may_pass_straight(b)) && pane(a) != pane(b));
 }
 
 struct Effect {
@@ -125,7 +166,8 @@ struct Effect {
         const Material& before = scene.material(edit.material);
         const bool shines = before.emissive() || edit.value.emissive();
         return {.lights = shines,
-                .geometry = passes_otherwise(before, edit.value),
+                .geometry = stops_otherwise(before, edit.value),
+                .passing = passes_otherwise(before, edit.value),
                 .material = edit.material};
     }
     EditEffect operator()(const AddObject& edit) const {
@@ -162,6 +204,10 @@ private:
 
 Edit apply(Scene& scene, Camera& camera, const Edit& edit) {
     return std::visit(Apply{scene, camera}, edit);
+}
+
+bool changes_nothing(const Scene& scene, const Camera& camera, const Edit& edit) {
+    return std::visit(ChangesNothing{scene, camera}, edit);
 }
 
 EditEffect effect_of(const Scene& scene, const Edit& edit) {

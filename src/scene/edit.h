@@ -59,13 +59,17 @@ using Edit = std::variant<SetCamera, SetTransform, SetShown, SetEmission, SetLig
 /// not singular.
 Edit apply(Scene& scene, Camera& camera, const Edit& edit);
 
+/// True if the edit sets what already is: there is nothing to follow. Checks: ids as apply().
+bool changes_nothing(const Scene& scene, const Camera& camera, const Edit& edit);
+
 /// What an edit may change of what is derived from the scene. Light lists (AreaLights, LitScene)
-/// are to be made anew if `lights`; what knows where surfaces are, as RayCaster and lists of
-/// mirrors, is to follow if `geometry`.
+/// are to be made anew if `lights`; what knows where surfaces are and whether rays pass them, as
+/// RayCaster and lists of mirrors, is to follow if `geometry`.
 struct EditEffect {
     bool camera = false;
     bool lights = false;    // a light, or a surface that emits before or afterwards
     bool geometry = false;  // an object moved, came or went, or rays pass its material otherwise
+    bool passing = false;   // another part of straight light gets through the material
     ObjectId object = ObjectId::none;        // that is changed or added
     MaterialId material = MaterialId::none;  // that is changed
     LightId light = LightId::none;           // that is changed or added

@@ -22,6 +22,7 @@ struct PunctualLight {
     bool on = true;                   // false: nothing comes from it
 
     bool lit() const { return on && max_component(intensity) > 0; }
+    bool operator==(const PunctualLight&) const = default;
 };
 
 /// Intensity that a point or spot sends along unit direction `w` [cd a channel]; black outside a

@@ -25,7 +25,7 @@ private:
     };
     std::vector<Place> places_;
     std::vector<Vec3> suns_;   // unit, toward each
-    bool everywhere_ = false;  // there is light from all directions, or by way of mirrors
+    bool everywhere_ = false;  // there is light from all directions
 };
 
 }  // namespace chiaro

@@ -26,6 +26,8 @@ struct Gloss {
     float transmission = 0;           // KHR_materials_transmission; MTL illum 4, 6, 7: 1
     Rgb transmission_color = Rgb(1);  // MTL Tf
     bool thin = true;  // light goes straight on, as through a pane; false: the surface of a solid
+
+    bool operator==(const Gloss&) const = default;
 };
 
 struct Material {
@@ -43,6 +45,7 @@ struct Material {
 
     bool emissive() const { return max_component(emission) > 0; }
     bool see_through() const { return alpha_mode != AlphaMode::opaque; }
+    bool operator==(const Material&) const = default;
 };
 
 }  // namespace chiaro

@@ -38,6 +38,7 @@ struct TextureUse {
 
     bool used() const { return texture != TextureId::none; }
     Vec2 transform(Vec2 uv) const;
+    bool operator==(const TextureUse&) const = default;
 };
 
 /// Linear RGB and alpha at `uv` (already transformed), bilinear unless the texture says nearest.

@@ -24,10 +24,10 @@ ShadingCache::ShadingCache(const Scene& scene, const MeshGraphs& graphs, Channel
     for (int c = 0; c < total; ++c)
         shown_.emplace_back(c < channels.irradiance ? ShownValues::Layout::dense
                                                     : ShownValues::Layout::sparse);
-    follow_scene();
+    follow_scene({});
 }
 
-void ShadingCache::follow_scene() {
+void ShadingCache::follow_scene(std::span<const MaterialId> repainted) {
     std::size_t primitives = roots_.size() / 2, vertices = mesh_vertices_.size() / 2;
     for (std::size_t i = first_primitive_.size(); i < scene_->objects.size(); ++i) {
         const Object& object = scene_->objects[i];
@@ -40,11 +40,18 @@ void ShadingCache::follow_scene() {
     roots_.resize(2 * primitives, PatchId::none);
     mesh_vertices_.resize(2 * vertices, VertexId::none);
 
-    reflectances_.clear();
-    for (const Material& material : scene_->materials) {
+    // Means over textures take their time.
+    const auto reflectance = [&](const Material& material) {
         const float y = std::clamp(luminance(mean_reflectance(*scene_, material)), 0.0f, 1.0f);
-        reflectances_.push_back(static_cast<std::uint8_t>(std::lround(255 * y)));
-    }
+        return static_cast<std::uint8_t>(std::lround(255 * y));
+    };
+    for (const MaterialId id : repainted)
+        if (index_of(id) < reflectances_.size())
+            reflectances_[index_of(id)] = reflectance(scene_->material(id));
+    for (std::size_t i = reflectances_.size(); i < scene_->materials.size(); ++i)
+        reflectances_.push_back(reflectance(scene_->materials[i]));
+    if (repainted.empty()) return;
+
     for (std::size_t side = 0; side < roots_.size(); ++side)
         if (roots_[side] != PatchId::none) {
             const SurfacePoint at = place(static_cast<std::uint32_t>(side), Vec2(0));

@@ -147,9 +147,9 @@ public:
     void forget(VertexId vertex);
     static constexpr std::uint8_t kAllChannels = 0xff;
 
-    /// Objects and meshes may have been appended to the scene, whose graphs have them, and
-    /// materials are not what they were.
-    void follow_scene();
+    /// Objects, meshes and materials may have been appended to the scene, whose graphs have them,
+    /// and these materials are not what they were.
+    void follow_scene(std::span<const MaterialId> repainted);
 
     /// Most rays from the vertex met the inside of a solid (design: buried vertices).
     void mark_buried(VertexId vertex);

@@ -28,6 +28,11 @@ void ExpectedChange::expect(std::size_t objects, int channel, float relative2) {
     }
 }
 
+void ExpectedChange::expect_of(ObjectId object, int channel, float relative2) {
+    Evidence& e = channels_[channel][index_of(object)];
+    e.prior = std::max(e.prior, relative2);
+}
+
 void ExpectedChange::found(ObjectId object, int channel, float relative2) {
     Evidence& e = channels_[channel][index_of(object)];
     e.sum += std::min(relative2, kMostFound);

@@ -16,6 +16,8 @@ public:
     /// An edit may have changed a channel everywhere by that (0: not at all). What was found before
     /// counts half, and no more than what this edit lets expect, as it was of another.
     void expect(std::size_t objects, int channel, float relative2);
+    /// On one object it may have by that, if not by more.
+    void expect_of(ObjectId object, int channel, float relative2);
     /// New samples took the place of old ones. (May be negative, where noise is subtracted.)
     void found(ObjectId object, int channel, float relative2);
 

@@ -19,23 +19,29 @@ constexpr float kFound = 0.01f;
 }  // namespace
 
 void UpdateCycle::look_from(const View& view) {
+    const auto now = static_cast<Cycle>(statistics_.cycles);
     if (view_ && view_->eye() != view.eye() && cache_.has_glossy()) {
-        gloss_rates_ = outdate_gloss(cache_, rays_->scene(), view_->eye(), view.eye(),
+        gloss_rates_ = outdate_gloss(cache_, rays_->scene(), {eye_track_, now, view.eye()},
                                      least_light(gains_.scale), expected_, settings_.threads);
         edited_ = true;
+        gloss_stale_at_ = now;
     }
+    eye_track_.move_to(view.eye(), now);
     view_ = view;
     stage_ = Stage::new_view;
 }
 
-void UpdateCycle::scene_changed(std::span<const EditEffect> effects, SampleRenderer& renderer) {
+void UpdateCycle::scene_changed(const SceneChange& change, SampleRenderer& renderer) {
     renderer_ = &renderer;
-    const SceneChange change = change_of(effects);
     if (!change.any()) return;
-    cache_.follow_scene();
+    follow_plans();
+    cache_.follow_scene(change.repainted);
     outdate(cache_, rays_->scene(), plans_, change, least_light(gains_.scale), expected_,
             settings_.threads);
+    // Of a motion of the eye that is over.
+    if (stage_ == Stage::refining) gloss_rates_.clear();
     edited_ = moving_ = true;
+    edited_at_ = gloss_stale_at_ = static_cast<Cycle>(statistics_.cycles);
     if (stage_ != Stage::nothing) stage_ = Stage::new_view;
 }
 
@@ -43,8 +49,7 @@ void UpdateCycle::scene_changed(std::span<const EditEffect> effects, SampleRende
 // is wrong by now, it is shaded at once, as fine as the user's time for it can pay.
 void UpdateCycle::lower_what_changes() {
     edited_ = false;
-    edited_at_ = static_cast<Cycle>(statistics_.cycles);
-    stale_ = 1;  // to be counted
+    stale_ = {1, 1};  // to be counted
     const double seconds = start_seconds();
     for (int c = 0; c < cache_.channels(); ++c) {
         std::vector<char> changing;
@@ -75,7 +80,7 @@ std::vector<float> UpdateCycle::age_rates() const {
 // Luminance of what is stale and about to be shaded again; negative where nothing is.
 std::vector<float> UpdateCycle::stale_light(const ShadeWork& work, int channel) const {
     std::vector<float> light;
-    if (stale_ == 0) return light;
+    if (stale_.all == 0) return light;
     for (const VertexId v : work.vertices(channel)) {
         const Estimate* e = cache_.estimate(v, channel);
         light.push_back(e && e->stale ? luminance(e->mean) : -1.0f);

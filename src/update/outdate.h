@@ -4,6 +4,7 @@
 #include "sample_selector/priority_map.h"
 #include "scene/light_reach.h"
 #include "update/expected_change.h"
+#include "update/eye_track.h"
 #include "update/scene_change.h"
 #include "update/shade_work.h"
 
@@ -29,21 +30,40 @@ float light2(const ShadingCache& cache, VertexId vertex, int channel, const Leas
 /// Direct light is stale where lights changed, on what moved, and where a segment to a light
 /// crosses a place that something left or came to; elsewhere it stays. All other light is stale
 /// everywhere, since light goes round corners. What was buried or dark, and may not be any more, is
-/// forgotten.
+/// forgotten: also what is buried by something that stands, where other light may come to it now.
 void outdate(ShadingCache& cache, const Scene& scene, std::span<const ChannelPlan> plans,
              const SceneChange& change, const LeastLight& least, ExpectedChange& expected,
              int threads);
 
-/// The eye moved: glossy light is stale, the more so the farther the eye has turned round a surface
-/// and the glossier that looks (5.1); forgotten where most shows something else. Returns how glossy
-/// the glossiest vertex of each object looks, at least 1 (PerceivedGloss::strength()); 0: of none.
-std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, Vec3 eye_before, Vec3 eye,
+/// The eye, which has been on a track until now, has moved.
+struct EyeMove {
+    const EyeTrack& track;
+    Cycle now;
+    Vec3 eye;  // where it is
+};
+
+/// Glossy light is stale, the more so the farther the eye has turned round a surface since that was
+/// shaded, in however small steps, and the glossier it looks (5.1); forgotten where most shows
+/// something else. Returns how glossy the glossiest vertex of each object looks, at least 1
+/// (PerceivedGloss::strength()); 0: of none.
+std::vector<float> outdate_gloss(ShadingCache& cache, const Scene& scene, const EyeMove& move,
                                  const LeastLight& least, ExpectedChange& expected, int threads);
+
+/// Estimates that are stale.
+struct StaleCount {
+    std::size_t all = 0;
+    std::size_t in_view = 0;  // the picture shows what they tell, not being buried
+};
+
+/// Cycles since light became stale: by edits, and of gloss by the eye's motion too.
+struct Waiting {
+    Cycle irradiance = 0, glossy = 0;
+    Cycle of(Shading shading) const { return shading == Shading::glossy ? glossy : irradiance; }
+};
 
 /// Takes what was found meanwhile for what is stale still: each of these may be off by as much as
 /// others on its object were, and by more the longer it waits, so that all in view have their turn.
-/// `age`: cycles since the edit. Returns how many are stale.
-std::size_t reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
-                             const LeastLight& least, Cycle age, int threads);
+StaleCount reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
+                            const LeastLight& least, const Waiting& waiting, int threads);
 
 }  // namespace chiaro

@@ -1,6 +1,7 @@
 // The map, and what polish in it shows by chance: once with the map, and by further passes while
 // the view rests.
 
+#include "sample_selector/gain.h"
 #include "update/update_cycle.h"
 
 #include <algorithm>
@@ -129,12 +130,18 @@ double UpdateCycle::polish_pixels(std::size_t count) {
 }
 
 // Chance finds surfaces that the map does not show. What their vertices show is predicted from
-// coarser ones; those that nothing predicts are evaluated.
+// coarser ones; those that nothing predicts are evaluated, and those that an edit has outdated are
+// sampled again, as nobody else comes to those out of view.
 void UpdateCycle::light_surfaces(std::span<const Fragment> fragments, ShadeWork& work) {
     std::unordered_set<std::uint64_t> met;
     const auto light = [&](const auto& again, VertexId id, int channel) -> void {
-        if (cache_.evaluated(id, channel)) return;
+        const Estimate* e = cache_.estimate(id, channel);
+        if (e && !e->stale) return;
         if (!met.insert(index_of(id) * 8 + static_cast<std::uint64_t>(channel)).second) return;
+        if (e) {
+            resample(id, channel, samples_of_new(cache_, id, channel, gains_), work);
+            return;
+        }
         const Parents parents = cache_.parents(id);
         bool known = true;
         for (const VertexId parent : parents) known &= cache_.evaluated(parent, channel);

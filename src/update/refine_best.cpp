@@ -19,6 +19,10 @@ constexpr float kChance = 0.03f;
 constexpr std::size_t kVerticesAPoint = 5;
 constexpr std::size_t kVerticesCarriedAPoint = 24;
 
+// All that is stale is looked at again once it has waited for so much longer, as a part of how long
+// it has: what changes by then is about the same each time.
+constexpr Cycle kWaitingALook = 8;  // an eighth
+
 // Patches whose gains one thread reckons at once.
 constexpr std::size_t kBlock = 1024;
 
@@ -233,10 +237,13 @@ void UpdateCycle::refresh(Extent extent) {
         cache_.resolve();
     }
     points_since_refresh_ = 0;
-    if (stale_ > 0)
-        stale_ = reconsider_stale(cache_, expected_, least_light(gains_.scale),
-                                  static_cast<Cycle>(statistics_.cycles) - edited_at_,
+    const auto now = static_cast<Cycle>(statistics_.cycles);
+    if (stale_.all > 0 && (extent == Extent::everything || now >= reconsider_at_)) {
+        const Waiting waiting = {now - edited_at_, now - gloss_stale_at_};
+        stale_ = reconsider_stale(cache_, expected_, least_light(gains_.scale), waiting,
                                   settings_.threads);
+        reconsider_at_ = now + 1 + std::min(waiting.irradiance, waiting.glossy) / kWaitingALook;
+    }
     if (statistics_.points_shaded > 2 * points_at_exposure_) {
         estimate_exposure();
         extent = Extent::everything;

@@ -27,7 +27,7 @@ void UpdateCycle::refine_as_paper() {
     {
         const StepTimer timer(statistics_.timings, Step::sample_selection);
         const auto now = static_cast<std::uint32_t>(statistics_.cycles);
-        const std::vector<float> rates = stale_ > 0 ? age_rates() : std::vector<float>();
+        const std::vector<float> rates = stale_.all > 0 ? age_rates() : std::vector<float>();
         const PriorityMap map =
             make_priority_map(cache_, map_, gains_.scale, now, {.rates = rates, .now = now});
         SelectionSettings settings;

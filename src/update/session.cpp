@@ -1,7 +1,6 @@
 #include "update/session.h"
 
 #include "base/random.h"
-#include "update/scene_change.h"
 
 namespace chiaro {
 
@@ -12,26 +11,26 @@ Session::Session(Scene scene, const Camera& camera, const SessionSettings& setti
       rays_(scene_, settings.update.threads, settings.curve_tolerance),
       graphs_(scene_, coarser_levels(settings.update.scheme), settings.update.threads),
       open_sides_(scene_) {
-    light_anew();
+    light_anew(true);
     cycle_.emplace(rays_, graphs_, *renderer_, open_sides_, settings_.update);
     cycle_->look_from(view());
 }
 
 Edit Session::apply(const Edit& edit) {
+    if (changes_nothing(scene_, camera_, edit)) return edit;
     const EditEffect effect = effect_of(scene_, edit);
     Edit inverse = chiaro::apply(scene_, camera_, edit);
-    follow(edit);
+    follow(edit, effect);
     effects_.push_back(effect);
     looks_elsewhere_ |= effect.camera;
     return inverse;
 }
 
 // What must know of each edit at once.
-void Session::follow(const Edit& edit) {
+void Session::follow(const Edit& edit, const EditEffect& effect) {
     if (const auto* moved = std::get_if<SetTransform>(&edit)) rays_.set_transform(moved->object);
     if (const auto* shown = std::get_if<SetShown>(&edit)) rays_.set_shown(shown->object);
-    if (const auto* changed = std::get_if<SetMaterial>(&edit))
-        rays_.set_material(changed->material);
+    if (effect.material != MaterialId::none && effect.geometry) rays_.set_material(effect.material);
     if (std::holds_alternative<AddObject>(edit)) {
         rays_.add_objects();
         open_sides_.add_objects(scene_);
@@ -39,23 +38,30 @@ void Session::follow(const Edit& edit) {
     }
 }
 
-// Lists of lights and of what shines brightly, and what a renderer remembers, are of the scene as
-// it was.
-void Session::light_anew() {
+// What a renderer remembers is of the scene as it was, and so are, where `lights` are others, their
+// lists.
+void Session::light_anew(bool lights) {
     renderer_.reset();
-    area_lights_.emplace(scene_);
+    if (lights) area_lights_.emplace(scene_);
     renderer_ = make_renderer(settings_.renderer, scene_, rays_, *area_lights_, &open_sides_,
                               settings_.update.threads, short_seed(settings_.update.seed));
 }
 
+// With the channels that the scene needs by now; what was shaded is lost, what was counted is not.
+void Session::begin_anew() {
+    const Statistics so_far = cycle_->statistics();
+    cycle_.emplace(rays_, graphs_, *renderer_, open_sides_, settings_.update).carry_on(so_far);
+    cycle_->look_from(view());
+}
+
 void Session::run() {
     if (!effects_.empty()) {
-        if (change_of(effects_).any()) light_anew();
+        const SceneChange change = change_of(effects_);
+        if (change.any()) light_anew(change.lights);
         if (cycle_->lacks_channel())
-            cycle_.emplace(rays_, graphs_, *renderer_, open_sides_, settings_.update)
-                .look_from(view());
+            begin_anew();
         else
-            cycle_->scene_changed(effects_, *renderer_);
+            cycle_->scene_changed(change, *renderer_);
         effects_.clear();
     }
     if (looks_elsewhere_) cycle_->look_from(view());

@@ -25,7 +25,8 @@ public:
     Session& operator=(const Session&) = delete;
 
     /// Makes an edit, which the next cycle follows, and returns the one that takes it back. Rigid
-    /// motion moves an instance and no geometry. Checks: as chiaro::apply().
+    /// motion moves an instance and no geometry; an edit that sets what already is, as an animation
+    /// of what rests does, costs nothing. Checks: as chiaro::apply().
     Edit apply(const Edit& edit);
 
     /// One cycle of the update loop on the scene as it is by now.
@@ -39,8 +40,9 @@ public:
 
 private:
     View view() const { return {camera_, settings_.width, settings_.height}; }
-    void follow(const Edit& edit);
-    void light_anew();
+    void follow(const Edit& edit, const EditEffect& effect);
+    void light_anew(bool lights);
+    void begin_anew();
 
     SessionSettings settings_;
     Scene scene_;

@@ -95,15 +95,19 @@ double ShadeWork::shade(ShadingCache& cache, SampleRenderer& renderer, int chann
     return seconds;
 }
 
+// What was dark before an edit tells nothing of what is.
 bool ShadeWork::surely_dark(const ShadingCache& cache, VertexId vertex) const {
     bool enough = false;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
-        if (!channels_[c].plan.zero_is_buried) continue;
+        const ChannelPlan& plan = channels_[c].plan;
+        if (plan.light == Light::glossy) continue;
         const Estimate* e = cache.estimate(vertex, static_cast<int>(c));
-        if (!e || e->samples < kEnoughToBeDark) return false;
+        if (!e || e->stale || max_component(e->mean) > 0) return false;
+        if (!plan.zero_is_buried) continue;
+        if (e->samples < kEnoughToBeDark) return false;
         enough = true;
     }
-    return enough && cache.dark(vertex);
+    return enough;
 }
 
 void ShadeWork::judge_buried(ShadingCache& cache, VertexId vertex, int channel,
@@ -122,7 +126,7 @@ ShadeWork ShadeWork::doubts(const ShadingCache& cache) const {
     ShadeWork more(plans, seed_, eye_);
     const auto dark_so_far = [&](VertexId v, int channel) {
         const Estimate* e = cache.estimate(v, channel);
-        return !e || max_component(e->mean) == 0;
+        return !e || e->stale || max_component(e->mean) == 0;
     };
     int count = static_cast<int>(channels_.size());
     while (count > 0 && channels_[count - 1].plan.light == Light::glossy) --count;
@@ -133,7 +137,10 @@ ShadeWork ShadeWork::doubts(const ShadingCache& cache) const {
             bool dark = true;
             for (int other = 0; other < count; ++other) dark &= dark_so_far(v, other);
             if (!dark) continue;
-            for (int other = 0; other < count; ++other) more.evaluate(cache, v, other);
+            for (int other = 0; other < count; ++other) {
+                const Estimate* e = cache.estimate(v, other);
+                if (!e || e->stale) more.resample(cache, v, other, plans[other].first_samples);
+            }
             if (cache.estimate(v, c)->samples < kEnoughToBeDark)
                 more.resample(cache, v, c, kEnoughToBeDark);
         }

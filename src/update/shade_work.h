@@ -48,7 +48,7 @@ public:
     double shade(ShadingCache& cache, SampleRenderer& renderer, int channel, Cycle now);
 
     /// What it takes to know whether those vertices of this work that have found no light are dark:
-    /// the other channels of irradiance, and more samples.
+    /// the other channels of irradiance, where they are not known or stale, and more samples.
     ShadeWork doubts(const ShadingCache& cache) const;
 
     static constexpr std::uint32_t kMostAtOnce = 8192;

@@ -33,14 +33,15 @@ bool shows_cached_gloss(const UpdateSettings& settings, const Scene& scene) {
 std::vector<ChannelPlan> plan_irradiance(const UpdateSettings& settings, const Scene& scene) {
     if (settings.scheme == Scheme::paper)
         return {{Light::total, settings.direct_samples, settings.indirect_samples}};
-    // Where surfaces reflect at all, indirect light is everywhere but inside of solids.
+    // Where anything shines and surfaces reflect at all, indirect light is everywhere but inside of
+    // solids.
     bool reflects = false;
     for (const Material& m : scene.materials) reflects |= max_component(m.base_color) > 0;
     return {{.light = Light::direct, .first_samples = 32, .finds_buried = true},
             {.light = Light::indirect,
              .first_samples = 64,
              .finds_buried = true,
-             .zero_is_buried = reflects}};
+             .zero_is_buried = reflects && has_light(scene)}};
 }
 
 std::vector<ChannelPlan> plan_channels(const UpdateSettings& settings, const Scene& scene) {
@@ -108,14 +109,27 @@ UpdateCycle::UpdateCycle(RayCaster& rays, const MeshGraphs& graphs, SampleRender
         gains_.first_samples[c] = plans_[c].first_samples;
         // Before any costs were measured, and for good in cycles of fixed size.
         gains_.seconds_a_sample[c] = cost(renderer.typical_costs(), plans_[c].light);
-        gains_.zero_is_doubtful[c] = plans_[c].zero_is_buried;
     }
+    follow_plans();
     gains_.scale.irradiance = settings.aov == Aov::irradiance;
     for (int c = 0; c < cache_.channels(); ++c) expected_.expect(rays.scene().objects.size(), c, 0);
 }
 
 bool UpdateCycle::lacks_channel() const {
-    return !std::ranges::equal(plan_channels(settings_, rays_->scene()), plans_);
+    const std::vector<ChannelPlan> wanted = plan_channels(settings_, rays_->scene());
+    return !std::ranges::all_of(wanted, [&](const ChannelPlan& plan) {
+        return std::ranges::count(plans_, plan.light, &ChannelPlan::light) > 0;
+    });
+}
+
+// The scene may be another. A channel that nothing needs any more stays: it may be needed again.
+void UpdateCycle::follow_plans() {
+    const std::vector<ChannelPlan> wanted = plan_channels(settings_, rays_->scene());
+    for (std::size_t c = 0; c < plans_.size(); ++c) {
+        for (const ChannelPlan& plan : wanted)
+            if (plan.light == plans_[c].light) plans_[c] = plan;
+        gains_.zero_is_doubtful[c] = plans_[c].zero_is_buried;
+    }
 }
 
 void UpdateCycle::run() {
@@ -132,7 +146,7 @@ void UpdateCycle::run() {
             restart_polish();
             start();
             // While somebody drags a chair, every cycle is the first of a view.
-            if (stale_ > 0) refine_by_scheme();
+            if (stale_.in_view > 0) refine_by_scheme();
             stage_ = Stage::covered;
             outlines_from_ = statistics_.seconds + seconds_since(start_time) +
                              seconds_before_outlines(seconds_of_map);

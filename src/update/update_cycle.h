@@ -6,10 +6,12 @@
 #include "sample_selector/select_samples.h"
 #include "sample_selector/sum_tree.h"
 #include "scene/bsdf.h"
-#include "scene/edit.h"
 #include "shading_cache/age_out.h"
 #include "update/expected_change.h"
+#include "update/eye_track.h"
+#include "update/outdate.h"
 #include "update/polish_means.h"
+#include "update/scene_change.h"
 #include "update/shade_work.h"
 #include "update/timings.h"
 
@@ -68,15 +70,17 @@ public:
     /// the eye. Glossy shading is stale if the eye has moved (5.1).
     void look_from(const View& view);
 
-    /// Edits were made since the last cycle, in order: their effects as effect_of() told them
-    /// before each. Rays, open sides and graphs have followed; `renderer`, of the scene as it is,
-    /// shades from now on. What they may have reached is shaded again, and what they cannot have
-    /// reached stays (5.2).
-    void scene_changed(std::span<const EditEffect> effects, SampleRenderer& renderer);
+    /// Edits were made since the last cycle, which change this. Rays, open sides and graphs have
+    /// followed; `renderer`, of the scene as it is, shades from now on. What they may have reached
+    /// is shaded again, and what they cannot have reached stays (5.2).
+    void scene_changed(const SceneChange& change, SampleRenderer& renderer);
 
     /// A material of the scene, as it is by now, shows light that this cycle has no channel for:
-    /// their number is fixed, and another cycle is to be made.
+    /// their number is fixed, and another cycle is to be made, which carries on.
     bool lacks_channel() const;
+
+    /// Counts on from another cycle's statistics, as this one takes its place: the clock goes on.
+    void carry_on(const Statistics& so_far) { statistics_ = so_far; }
 
     /// One cycle. The first after look_from() ends with a picture that covers the whole view.
     void run();
@@ -88,8 +92,9 @@ public:
     const ShadingCache& cache() const { return cache_; }
     const IdMap& id_map() const { return map_; }
     const Statistics& statistics() const { return statistics_; }
-    /// Estimates of the scene before the last edits that wait for their turn.
-    std::size_t stale() const { return stale_; }
+    /// Estimates in view of the scene before the last edits, that wait for their turn, when they
+    /// were counted last.
+    std::size_t stale() const { return stale_.in_view; }
     /// Samples that the last cycle of the paper's scheme selected.
     const std::vector<SelectedPixel>& last_selection() const { return selection_; }
     const PictureScale& scale() const { return gains_.scale; }
@@ -106,6 +111,7 @@ private:
     double polish_pixels(std::size_t count);
     void light_surfaces(std::span<const Fragment> fragments, ShadeWork& work);
     void light_pixels(const ChancePass& seen, std::span<Rgb> light);
+    void follow_plans();
     ShadeWork new_work() const;
     void start();
     void attach_front();
@@ -165,11 +171,14 @@ private:
     bool environment_;  // there is one that shines
     std::optional<View> view_;
     enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
-    bool edited_ = false;             // since the last cycle, so that something may be stale
-    bool moving_ = false;             // the scene was, not the camera alone, before the last look
-    Cycle edited_at_ = 0;             // when it last was
-    std::size_t stale_ = 0;           // estimates, when they were counted last
-    ExpectedChange expected_;         // of these
+    bool edited_ = false;       // since the last cycle, so that something may be stale
+    bool moving_ = false;       // the scene was, not the camera alone, before the last look
+    Cycle edited_at_ = 0;       // cycle before which the scene last was
+    Cycle gloss_stale_at_ = 0;  // likewise, or the eye moved
+    Cycle reconsider_at_ = 0;   // when stale estimates are looked at again
+    StaleCount stale_;          // when they were counted last
+    ExpectedChange expected_;   // of these
+    EyeTrack eye_track_;
     std::vector<float> gloss_rates_;  // by object: age priorities since the eye moved (5.1)
     double outlines_from_ = 0;  // of statistics_.seconds: when outlines of this view are smoothed
 

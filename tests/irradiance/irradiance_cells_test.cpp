@@ -147,24 +147,5 @@ TEST(IrradianceCells, MergesMeansAndVariances) {
                 1e-2);
 }
 
-// What was sampled before an edit does not mix with what was sampled after it.
-TEST(IrradianceCells, OlderSamplesMakeWay) {
-    IrradianceCells cells(unit_grid());
-    const CellId id = cells.find_or_add(CellKey{1});
-    CellSamples old, fresh;
-    for (int i = 0; i < 8; ++i) old.add(Rgb(100));
-    for (int i = 0; i < 2; ++i) fresh.add(Rgb(3));
-    EXPECT_FALSE(cells.known(id));
-    cells.store(id, old);
-    EXPECT_TRUE(cells.known(id));
-    cells.outdate();
-    EXPECT_FALSE(cells.known(id));
-    cells.store(id, fresh);
-    EXPECT_TRUE(cells.known(id));
-    EXPECT_EQ(cells.cell(id).mean, Rgb(3));
-    EXPECT_EQ(cells.cell(id).samples, 2u);
-    EXPECT_EQ(cells.cell(id).variance(), 0);
-}
-
 }  // namespace
 }  // namespace chiaro

@@ -74,23 +74,6 @@ TEST(Gather, ThreadsChangeNothing) {
     EXPECT_GT(one.cells().cells().size(), 1000u);
 }
 
-// Walls that turn black are black to rays at once, though cells knew them white; and what cells
-// knew under white walls is not what they say under grey ones.
-TEST(Gather, StaleCellsAreTracedOn) {
-    Meter meter(tiny::cornell_box());
-    const Vec3 eye(2.78f, 2.7f, 1);
-    GatherRenderer gather = gather_in(meter, 2);
-    warm_up(gather, meter, eye);
-    const auto requests = indirect_requests(meter, eye, 400, 64, 5);
-    for (const float grey : {0.0f, 0.2f}) {
-        for (Material& material : meter.scene.materials) material.base_color = Rgb(grey);
-        gather.scene_changed();
-        PathRenderer path(meter.scene, meter.caster, meter.area_lights, &meter.open_sides, 2);
-        const double traced = mean_luminance(shade(path, requests));
-        EXPECT_NEAR(mean_luminance(shade(gather, requests)), traced, 0.04 * traced) << grey;
-    }
-}
-
 // Bias against `path`: below 1.5 % in the mean over all places of the Cornell box and of the
 // furnished room. Standard errors of both means together are 0.2 %; at 0.3 % of bias, which was
 // measured, the bound is 5 of them away: false alarm 6e-7.

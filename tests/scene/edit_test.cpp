@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <functional>
+
 namespace chiaro {
 namespace {
 
@@ -63,6 +65,16 @@ TEST(Edit, ItsInverseTakesItBack) {
         EXPECT_EQ(stage.scene.lights[0].position, before.scene.lights[0].position);
         EXPECT_EQ(stage.scene.lights[0].on, before.scene.lights[0].on);
         EXPECT_EQ(stage.scene.materials[0].base_color, before.scene.materials[0].base_color);
+    }
+}
+
+// An edit changes nothing once it was made.
+TEST(Edit, MadeAgainChangesNothing) {
+    Stage stage;
+    for (const Edit& edit : changes(stage)) {
+        EXPECT_FALSE(changes_nothing(stage.scene, stage.camera, edit));
+        stage.apply(edit);
+        EXPECT_TRUE(changes_nothing(stage.scene, stage.camera, edit));
     }
 }
 
@@ -162,6 +174,35 @@ TEST(EditEffect, TellsLampsFromOtherThings) {
     const EditEffect lit = effect_of(stage.scene, SetMaterial{stage.white, paint});
     EXPECT_TRUE(lit.lights && lit.geometry);
     EXPECT_TRUE(effect_of(stage.scene, SetCamera{}).camera);
+}
+
+// What gets through a pane hangs on all that its material is; what gets through a wall, on nothing
+// but its becoming one, or its getting holes.
+TEST(EditEffect, TellsWhetherOtherLightGetsThrough) {
+    Stage stage;
+    const MaterialId pane = tiny::add_glossy(stage.scene, Rgb(1), tiny::glass(0, true));
+    const auto effect = [&](MaterialId id, const std::function<void(Material&)>& change) {
+        Material changed = stage.scene.material(id);
+        change(changed);
+        return effect_of(stage.scene, SetMaterial{id, changed});
+    };
+    const auto tinted = [](Material& m) { m.base_color = Rgb(1, 0, 0); };
+    const auto rough = [](Material& m) { m.gloss.roughness = 0.5f; };
+    const auto opaque = [](Material& m) { m.gloss.transmission = 0; };
+    for (const std::function<void(Material&)>& change :
+         {std::function<void(Material&)>(tinted), {rough}, {opaque}}) {
+        EXPECT_TRUE(effect(pane, change).passing);
+        EXPECT_FALSE(effect(stage.white, change).passing);
+    }
+    EXPECT_FALSE(effect(pane, tinted).geometry || effect(pane, rough).geometry);
+    EXPECT_TRUE(effect(pane, opaque).geometry);
+
+    const auto half_there = [](Material& m) {
+        m.alpha_mode = AlphaMode::blend;
+        m.alpha = 0.5f;
+    };
+    EXPECT_TRUE(effect(stage.white, half_there).passing);
+    EXPECT_TRUE(effect(stage.white, [&](Material& m) { m.gloss = tiny::glass(0, true); }).passing);
 }
 
 TEST(EditHistory, StepsAreTakenBackWholeAndMadeAgain) {

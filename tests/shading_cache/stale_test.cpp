@@ -85,7 +85,8 @@ TEST(Stale, TheCacheFollowsWhatIsAddedToTheScene) {
     const PatchId child = cache.subdivide(old);
     scene.objects.push_back(scene.objects[0]);
     scene.materials[0].base_color = Rgb(1);
-    cache.follow_scene();
+    const std::vector<MaterialId> repainted = {MaterialId{0}};
+    cache.follow_scene(repainted);
     EXPECT_EQ(cache.patch(old).reflectance, 255);
     EXPECT_EQ(cache.patch(child).reflectance, 255);
     const PatchId added = cache.root(ObjectId{1}, 0, true);

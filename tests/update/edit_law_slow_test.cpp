@@ -1,6 +1,7 @@
 // The law (design, section 5): after any script of edits the cache converges to the same picture as
 // a cache that was built from scratch on the edited scene, within noise.
 #include "base/tone_map.h"
+#include "sample_renderer/tiny_scenes.h"
 #include "scene/built_in.h"
 #include "scene/edit_history.h"
 #include "update/session.h"
@@ -177,10 +178,13 @@ TEST(EditLaw, PoolHall) {
     });
 }
 
-// A thousand edits at random, ten a cycle, then all of them undone: nothing of any is left.
+// A thousand edits at random, ten a cycle, under a pane of changing tint and a lamp that is off now
+// and then; then all of them undone one by one, a few a cycle: nothing of any is left.
 TEST(EditLaw, NothingIsLeftOfAThousandEditsThatAreUndone) {
     Scene scene = *built_in_scene("cornell");
     const Camera camera = scene.cameras.front();
+    const MaterialId pane = tiny::add_glossy(scene, Rgb(0.9f), tiny::glass(0, true));
+    tiny::add_quad(scene, {1.8f, 4.5f, 1.9f}, {0, 0, 1.8f}, {1, 0, 0}, pane);
     const Scene at_first = scene;
     Session session(std::move(scene), camera, settings_of(seed_of_edited()));
     EditHistory history;
@@ -194,6 +198,11 @@ TEST(EditLaw, NothingIsLeftOfAThousandEditsThatAreUndone) {
         const ObjectId lamp = object(now, "lamp");
         Material material = now.material(m);
         material.base_color = Rgb(rng.uniform(), rng.uniform(), rng.uniform());
+        Material rough = now.material(m);
+        rough.gloss = tiny::plastic(rng.uniform());
+        Material tinted = now.material(pane);
+        tinted.base_color = material.base_color;
+        const bool on = rng.below(4) != 0;
         Camera look = camera;
         look.eye += 0.3f * Vec3(random(), random(), random());
         PunctualLight spot = {.name = "spot", .intensity = Rgb(rng.uniform())};
@@ -203,8 +212,10 @@ TEST(EditLaw, NothingIsLeftOfAThousandEditsThatAreUndone) {
             SetTransform{o, glm::translate(Mat4(1), 0.5f * Vec3(random(), 0, random())) *
                                 at_first.objects[index_of(o)].to_world});
         one_of.emplace_back(SetShown{o, rng.below(2) == 0});
-        one_of.emplace_back(SetEmission{lamp, Rgb(0.2f + rng.uniform())});
+        one_of.emplace_back(SetEmission{lamp, on ? Rgb(0.2f + rng.uniform()) : Rgb(0)});
         one_of.emplace_back(SetMaterial{m, material});
+        one_of.emplace_back(SetMaterial{m, rough});
+        one_of.emplace_back(SetMaterial{pane, tinted});
         one_of.emplace_back(SetCamera{look});
         if (now.lights.size() < 8) one_of.emplace_back(AddLight{spot});
         if (now.objects.size() < 12) one_of.emplace_back(AddObject{now.objects[index_of(o)]});
@@ -212,7 +223,10 @@ TEST(EditLaw, NothingIsLeftOfAThousandEditsThatAreUndone) {
         history.add(session.apply(one_of[chosen]));
         if (i % 10 == 9) session.run();
     }
-    while (history.can_undo()) history.undo([&](const Edit& edit) { return session.apply(edit); });
+    while (history.can_undo()) {
+        history.undo([&](const Edit& edit) { return session.apply(edit); });
+        if (rng.below(4) == 0) session.run();
+    }
     for (std::size_t i = 0; i < at_first.objects.size(); ++i)
         EXPECT_EQ(session.scene().objects[i].to_world, at_first.objects[i].to_world);
 

@@ -19,6 +19,17 @@ TEST(ExpectedChange, WhatIsFoundOnAnObjectIsExpectedOfTheRestOfIt) {
     EXPECT_FLOAT_EQ(change.relative2(ObjectId{1}, 0), (4.0f + 16) / 32);
 }
 
+// Of one object more may be expected than of all, and not less; the others stay as they are.
+TEST(ExpectedChange, MoreMayBeExpectedOfOneObject) {
+    ExpectedChange change;
+    change.expect(2, 0, 0.1f);
+    change.expect_of(ObjectId{1}, 0, 0.5f);
+    EXPECT_FLOAT_EQ(change.relative2(ObjectId{1}, 0), 0.5f);
+    change.expect_of(ObjectId{1}, 0, 0.2f);
+    EXPECT_FLOAT_EQ(change.relative2(ObjectId{1}, 0), 0.5f);
+    EXPECT_FLOAT_EQ(change.relative2(ObjectId{0}, 0), 0.1f);
+}
+
 // The next edit is another: what was found counts half, and a smaller expectation does not take
 // back that things were changing.
 TEST(ExpectedChange, EditsThatGoOnKeepHalfOfWhatWasFound) {

@@ -1,5 +1,6 @@
 // What polish shows comes to the truth while the view rests.
 #include "sample_renderer/reference_renderer.h"
+#include "update/session.h"
 #include "update/studio.h"
 
 namespace chiaro {
@@ -78,6 +79,57 @@ TEST(Polish, ItsErrorFallsWithTheWorkWhileTheViewRests) {
         const Image first_look = draw(studio.cycle.cache(), studio.cycle.id_map(), 2);
         EXPECT_LT(late, truths.error(first_look) / 2) << int(c.lamp);
     }
+}
+
+// A ceiling of 1600 small squares over a polished floor, both lit by a wall alone that a spot
+// shines on. Of the floor few pixels are seen, so that passes alone find most squares.
+Scene ceiling_in_polish() {
+    Scene scene;
+    const MaterialId wall = add_material(scene, Rgb(0.6f));
+    const MaterialId white = add_material(scene, Rgb(0.7f));
+    const MaterialId floor = add_glossy(scene, Rgb(0.8f), metal(0.2f));
+    add_quad(scene, {-4, 0, -4}, {8, 0, 0}, {0, 3, 0}, wall);
+    add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, floor);
+    Mesh ceiling;
+    constexpr int kAcross = 40;
+    for (int j = 0; j <= kAcross; ++j)
+        for (int i = 0; i <= kAcross; ++i)
+            ceiling.positions.emplace_back(0.2f * float(i) - 4, 3, 0.2f * float(j) - 4);
+    for (std::uint32_t j = 0; j < kAcross; ++j)
+        for (std::uint32_t i = 0; i < kAcross; ++i) {
+            const std::uint32_t a = j * (kAcross + 1) + i, b = a + kAcross + 1;
+            ceiling.primitives.push_back(quad(a, a + 1, b + 1, b, white));
+        }
+    add_object(scene, ceiling);
+    PunctualLight spot = point_light({0, 1.5f, -2}, Rgb(1000));
+    spot.kind = LightKind::spot;
+    spot.outer_cone = 0.6f;
+    scene.lights.push_back(spot);
+    return scene;
+}
+
+// An edit is followed by what polish shows of surfaces out of view too: once the wall is painted
+// ten times as dark, the floor shows what it does in a fresh session, within the noise (20 %).
+TEST(Polish, WhatItShowsFollowsEdits) {
+    SessionSettings settings;
+    settings.update = fixed_size(Scheme::best, Aov::radiance);
+    settings.width = 4;
+    settings.height = 3;
+    const Camera camera = {.eye = {0, 1.5f, 1.9f}, .target = {0, 0, 0}, .vertical_fov = 30};
+    const auto mean_after = [&](Session& session, int cycles) {
+        for (int i = 0; i < cycles; ++i) session.run();
+        return luminance(mean_of(session.cycle().picture()));
+    };
+    Session session(ceiling_in_polish(), camera, settings);
+    const float before = mean_after(session, 48);
+    Material dark = session.scene().material(MaterialId{0});
+    dark.base_color = Rgb(0.06f);
+    session.apply(SetMaterial{MaterialId{0}, dark});
+    const float after = mean_after(session, 48);
+    Session fresh(session.scene(), camera, settings);
+    const float truth = mean_after(fresh, 48);
+    EXPECT_LT(truth, before / 8);
+    EXPECT_NEAR(after, truth, 0.2f * truth);
 }
 
 // Passes add nothing and lose nothing, at outlines neither: a white box that is all polish vanishes

@@ -129,6 +129,34 @@ TEST(ShadeWork, DarknessTakesSamplesToBelieve) {
     EXPECT_FALSE(desk.cache.vertex(desk.corner(0)).buried);
 }
 
+// Where no light was before an edit, there may be some now: as long as one channel is stale, a
+// vertex that finds none in the other is not buried, and the stale one is sampled again at once.
+TEST(ShadeWork, DarknessOfBeforeIsNotBelieved) {
+    Desk desk;
+    auto plans = Desk::plans();
+    plans[1].finds_buried = plans[1].zero_is_buried = true;
+    plans[0].finds_buried = true;
+    const VertexId vertex = desk.corner(0);
+    desk.cache.store(vertex, 0, Rgb(0), 0, 32, 1);
+    desk.cache.outdate(vertex, 0, 1);
+    desk.clerk.answer = Rgb(0);
+    ShadeWork work(plans, 7);
+    work.evaluate(desk.cache, vertex, 1, 256);
+    work.shade(desk.cache, desk.clerk, 1, 2);
+    EXPECT_FALSE(desk.cache.vertex(vertex).buried);
+
+    ShadeWork doubts = work.doubts(desk.cache);
+    ASSERT_EQ(doubts.points(), 1u);
+    ShadeWork dark = doubts;
+    ShadingCache copy = desk.cache;
+    dark.shade(copy, desk.clerk, 0, 2);
+    EXPECT_TRUE(copy.vertex(vertex).buried);
+    desk.clerk.answer = Rgb(3);
+    doubts.shade(desk.cache, desk.clerk, 0, 2);
+    EXPECT_FALSE(desk.cache.vertex(vertex).buried);
+    EXPECT_EQ(doubts.doubts(desk.cache).points(), 0u);
+}
+
 // Nested timers: the inner one's time is the inner step's alone, and the rows add up to what
 // passed.
 TEST(StepTimer, CountsNothingTwice) {
