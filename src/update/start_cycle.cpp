@@ -17,6 +17,13 @@ constexpr double kFixedFirstPictureSeconds = 0.15;
 constexpr double kDirectShare = 0.15;
 constexpr double kGlossyShare = 0.5;
 
+// How long a cycle may be while edits come all the time, in times of what it adjusts itself to; the
+// least part of that for a start, however long the map has taken; and how much dearer samples may
+// turn out, of a scene that the renderer has yet to learn.
+constexpr double kDraggedCycle = 1.5;
+constexpr double kLeastStart = 0.4;
+constexpr double kMostOverrun = 4;
+
 }  // namespace
 
 // Everything in view, at an even density that the first picture's budget can pay. The paper's
@@ -35,8 +42,14 @@ void UpdateCycle::start() {
         const double seconds = start_seconds();
         for (int c = 0; c < cache_.channels(); ++c) start_channel(c, seconds, work);
     }
+    const auto before = std::chrono::steady_clock::now();
+    const double planned = work_seconds(work);
     shade(work);
     if (settings_.scheme == Scheme::best) dig_out();
+    if (dragged_ && planned > 0) {
+        const double taken = seconds_since(before) * threads_at_once() / planned;
+        overrun_ += 0.3 * (std::clamp(taken, 1.0, kMostOverrun) - overrun_);
+    }
     estimate_exposure();
     refresh(Extent::everything);
 }
@@ -64,16 +77,26 @@ void UpdateCycle::dig_out() {
         }
         if (work.points() == 0) break;
         shade(work);
+        // More is to come, and digs on.
+        if (dragged_ && !settings_.fixed_size && seconds_left(0) == 0) break;
     }
     for (std::size_t i = 0; i < cache_.patches().size(); ++i)
         expose_if_seen(cache_, static_cast<PatchId>(i));
 }
 
-// Processor seconds for the first picture. While edits come, the next one comes soon.
+// Processor seconds for the first picture. While edits come in every cycle, half of what the map
+// has left of one.
 double UpdateCycle::start_seconds() const {
     if (settings_.fixed_size) return kFixedFirstPictureSeconds;
+    if (dragged_) return 0.5 * seconds_left(kLeastStart) / overrun_;
     return threads_at_once() *
            (moving_ ? settings_.clean_up_seconds : settings_.first_picture_seconds);
+}
+
+// Processor seconds until this cycle is as long as may be, and no fewer than a part of one.
+double UpdateCycle::seconds_left(double fewest) const {
+    const double left = kDraggedCycle * settings_.cycle_seconds - seconds_since(cycle_start_);
+    return threads_at_once() * std::max(left, fewest * settings_.cycle_seconds);
 }
 
 double UpdateCycle::first_picture_share(int channel) const {

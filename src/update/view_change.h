@@ -1,0 +1,24 @@
+// What edits change of what rays from the eye see: which part of the map is to be made anew.
+#pragma once
+
+#include "scene/edit.h"
+
+#include <span>
+#include <vector>
+
+namespace chiaro {
+
+/// Lights without a surface are not seen: where they alone change, nothing is to be seen again.
+struct ViewChange {
+    bool everywhere = false;  // the eye has moved, or a material looks otherwise
+    std::vector<Box> boxes;   // world space: else only rays through these see something else
+
+    bool any() const { return everywhere || !boxes.empty(); }
+    void add(const ViewChange& later);
+};
+
+/// Of edits that were made one after the other, none of which was seen but the last. An object has
+/// two boxes: where it was before the first, and where the last has left it.
+ViewChange view_change_of(std::span<const EditEffect> effects);
+
+}  // namespace chiaro
