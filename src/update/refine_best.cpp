@@ -85,8 +85,7 @@ double UpdateCycle::seconds_budget() const {
 // Processor seconds for refinement; while edits come in every cycle, what the start has left.
 double UpdateCycle::refine_seconds() const {
     constexpr double kLeast = 0.2;  // of a cycle
-    if (dragged_ && stage_ == Stage::new_view && !settings_.fixed_size)
-        return seconds_left(kLeast) / overrun_;
+    if (in_haste() && !settings_.fixed_size) return seconds_left(kLeast) / overrun_;
     return seconds_budget() * (1 - polish_share());
 }
 

@@ -24,8 +24,9 @@ std::uint32_t vertex_seed(const ShadingCache& cache, VertexId id, int channel,
 
 }  // namespace
 
-ShadeWork::ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed, Vec3 eye)
-    : seed_(seed), eye_(eye) {
+ShadeWork::ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed, Vec3 eye,
+                     std::uint32_t enough_to_be_dark)
+    : seed_(seed), eye_(eye), enough_to_be_dark_(enough_to_be_dark) {
     for (const ChannelPlan& plan : plans) channels_.push_back({plan, {}, {}, 0});
 }
 
@@ -100,7 +101,7 @@ bool ShadeWork::surely_dark(const ShadingCache& cache, VertexId vertex) const {
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         if (!channels_[c].plan.zero_is_buried) continue;
         const Estimate* e = cache.estimate(vertex, static_cast<int>(c));
-        if (!e || e->samples < kEnoughToBeDark) return false;
+        if (!e || e->samples < enough_to_be_dark_) return false;
         enough = true;
     }
     return enough && cache.dark(vertex);
@@ -119,7 +120,7 @@ void ShadeWork::judge_buried(ShadingCache& cache, VertexId vertex, int channel,
 ShadeWork ShadeWork::doubts(const ShadingCache& cache) const {
     std::vector<ChannelPlan> plans;
     for (const Channel& c : channels_) plans.push_back(c.plan);
-    ShadeWork more(plans, seed_, eye_);
+    ShadeWork more(plans, seed_, eye_, enough_to_be_dark_);
     const auto dark_so_far = [&](VertexId v, int channel) {
         const Estimate* e = cache.estimate(v, channel);
         return !e || max_component(e->mean) == 0;
@@ -134,8 +135,8 @@ ShadeWork ShadeWork::doubts(const ShadingCache& cache) const {
             for (int other = 0; other < count; ++other) dark &= dark_so_far(v, other);
             if (!dark) continue;
             for (int other = 0; other < count; ++other) more.evaluate(cache, v, other);
-            if (cache.estimate(v, c)->samples < kEnoughToBeDark)
-                more.resample(cache, v, c, kEnoughToBeDark);
+            if (cache.estimate(v, c)->samples < enough_to_be_dark_)
+                more.resample(cache, v, c, enough_to_be_dark_);
         }
     }
     return more;

@@ -164,7 +164,8 @@ void UpdateCycle::refine_by_scheme() {
 }
 
 ShadeWork UpdateCycle::new_work() const {
-    return {plans_, settings_.seed, view_->eye()};
+    return {plans_, settings_.seed, view_->eye(),
+            in_haste() ? ShadeWork::kFewToBeDark : ShadeWork::kEnoughToBeDark};
 }
 
 void UpdateCycle::shade(ShadeWork& work) {

@@ -115,6 +115,8 @@ private:
     void light_pixels(const ChancePass& seen, std::span<Rgb> light);
     ShadeWork new_work() const;
     void note_change();
+    bool in_haste() const { return dragged_ && stage_ == Stage::new_view; }
+    void judge_buried_again(ShadeWork& work);
     void start();
     void attach_front();
     void dig_out();
@@ -184,6 +186,7 @@ private:
     Cycle edited_at_ = 0;              // when it last was
     std::optional<Cycle> changed_at_;  // scene or view, the cycle before which they last were
     bool dragged_ = false;             // and shortly before that: more is to come
+    bool hasty_ = false;               // few samples told what is buried, for the time being
     std::size_t stale_ = 0;            // estimates, when they were counted last
     ExpectedChange expected_;          // of these
     std::vector<float> gloss_rates_;   // by object: age priorities since the eye moved (5.1)
