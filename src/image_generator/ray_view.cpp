@@ -1,7 +1,7 @@
 #include "image_generator/ray_view.h"
 
 #include "base/parallel.h"
-#include "image_generator/view_fragments.h"
+#include "image_generator/view_on_roots.h"
 
 #include <algorithm>
 
@@ -96,52 +96,6 @@ SeenRow refine_row(const Viewing& viewing, int y, const SeenRow& coarse,
     return row;
 }
 
-// Puts what was seen on root patches, in the order of pixels.
-IdMap put_on_roots(ShadingCache& cache, const std::vector<SeenRow>& rows, const View& view,
-                   Aov aov) {
-    IdMap map;
-    map.irradiance = aov == Aov::irradiance;
-    map.width = view.width();
-    map.height = view.height();
-    map.background = Image(view.width(), view.height());
-    std::size_t count = 0;
-    for (const SeenRow& row : rows) count += row.pieces.size();
-    map.fragments.reserve(count);
-    map.first_of_pixel.reserve(map.background.pixels.size() + 1);
-    for (int y = 0; y < map.height; ++y) {
-        auto piece = rows[y].pieces.begin();
-        for (int x = 0; x < map.width; ++x) {
-            const auto pixel = static_cast<std::uint32_t>(y * map.width + x);
-            map.first_of_pixel.push_back(static_cast<std::uint32_t>(map.fragments.size()));
-            map.background.pixels[pixel] = rows[y].background[x];
-            bool chance = false;
-            for (; piece != rows[y].pieces.end() && piece->x == static_cast<std::uint32_t>(x);
-                 ++piece) {
-                const SurfacePoint& at = piece->point;
-                chance |= by_chance(piece->trail) || piece->glint != Rgb(0);
-                if (piece->glint != Rgb(0))
-                    map.glints.push_back({pixel, at, piece->front, piece->seen_from, piece->glint});
-                if (piece->reflectance == Rgb(0) && piece->gloss == Rgb(0)) continue;
-                map.fragments.push_back({pixel, cache.root(at.object, at.primitive, piece->front),
-                                         Vec2(at.u, at.v), piece->reflectance, piece->gloss,
-                                         by_chance(piece->trail)});
-            }
-            if (chance) map.chance_pixels.push_back({pixel, rows[y].rays[x], rows[y].steady[x]});
-        }
-    }
-    map.first_of_pixel.push_back(static_cast<std::uint32_t>(map.fragments.size()));
-    return map;
-}
-
-// What polish shows proves nothing: its rays leave in all directions from just above a surface, and
-// where another one rises out of it, just above may be inside of that.
-void mark_open_sides(OpenSides& open_sides, const std::vector<SeenRow>& rows) {
-    for (const SeenRow& row : rows)
-        for (const SeenPiece& piece : row.pieces)
-            if (!by_chance(piece.trail))
-                open_sides.mark(piece.point.object, piece.point.primitive, piece.front);
-}
-
 }  // namespace
 
 IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
@@ -151,7 +105,8 @@ IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
     const bool antialiased = settings.quality == ViewQuality::antialiased;
     std::vector<CentreRow> centres(antialiased ? rows.size() : 0);
     parallel_for(settings.threads, rows.size(), [&](std::size_t y) {
-        rows[y] = see_row(viewing, static_cast<int>(y), antialiased ? &centres[y] : nullptr);
+        rows[y] =
+            see_row(viewing, static_cast<int>(y), {.centres = antialiased ? &centres[y] : nullptr});
     });
     if (open_sides) mark_open_sides(*open_sides, rows);
 
@@ -162,7 +117,7 @@ IdMap make_id_map(ShadingCache& cache, const RayCaster& rays, const View& view,
         });
         rows = std::move(finer);
     }
-    return put_on_roots(cache, rows, view, settings.aov);
+    return put_on_roots(cache, rows, viewing, nullptr, settings.threads);
 }
 
 ChancePass look_again(ShadingCache& cache, const RayCaster& rays, const View& view,

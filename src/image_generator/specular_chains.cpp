@@ -10,6 +10,7 @@ namespace {
 constexpr float kLeastPart = 1.0f / 512;   // of a ray: what is behind it is not missed
 constexpr float kLeastLeft = 1.0f / 1024;  // of a chain
 constexpr int kMostSurfaces = 16;
+constexpr float kFar = 1e9f;  // scenes end before
 
 // A ray on its way, at the same place in the wave's arrays.
 struct Way {
@@ -43,6 +44,7 @@ struct Chains {
     const RayCaster& rays;
     std::span<const Looking> looking;
     const ChainSettings& settings;
+    std::vector<SightLine>* lines;
     Waves next = {};
     std::vector<LayerHit> layers = {};
 
@@ -146,13 +148,14 @@ void Chains::see(RayKind kind, const Wave& wave, bool last, std::vector<Sighting
     for (std::uint32_t i = 0; i < wave.rays.size(); ++i) {
         const Ray& ray = wave.rays[i];
         float left = 1;  // of the ray
+        Vec3 farthest = ray.origin;
         for (; layer != layers.end() && layer->ray == i; ++layer) {
             if (left < kLeastPart) continue;
             const float part = left * opacity(scene, layer->hit.point);
             left -= part;
             Sighting at = make_sighting(wave.ways[i], part);
             at.hit = layer->hit;
-            at.position = ray.origin + at.hit.t * ray.direction;
+            at.position = farthest = ray.origin + at.hit.t * ray.direction;
             at.distance += at.hit.t;
             at.seen_from = ray.origin;
             if (settings.chains) {
@@ -161,6 +164,11 @@ void Chains::see(RayKind kind, const Wave& wave, bool last, std::vector<Sighting
                 go_on(kind, at, ray.direction, last);
             }
             found.push_back(at);
+        }
+        if (lines) {
+            const bool hidden = left < kLeastPart;
+            lines->push_back({looking[wave.ways[i].looking].x, ray.origin,
+                              hidden ? farthest : ray.origin + kFar * ray.direction});
         }
         if (left < kLeastPart || !sees_environment || wave.ways[i].after_chance) continue;
         Sighting beyond = make_sighting(wave.ways[i], left);
@@ -172,7 +180,7 @@ void Chains::see(RayKind kind, const Wave& wave, bool last, std::vector<Sighting
 }  // namespace
 
 void look(const RayCaster& rays, std::span<const Looking> looking, const ChainSettings& settings,
-          std::vector<Sighting>& found) {
+          std::vector<Sighting>& found, std::vector<SightLine>* lines) {
     found.clear();
     found.reserve(looking.size());
     Waves waves;
@@ -182,7 +190,7 @@ void look(const RayCaster& rays, std::span<const Looking> looking, const ChainSe
         waves.camera.rays.push_back(looking[i].ray);
         waves.camera.ways.push_back({i, 0, Rgb(1), 0, 1, false});
     }
-    Chains chains{rays, looking, settings};
+    Chains chains{rays, looking, settings, lines};
     for (int surfaces = 1; !waves.empty(); ++surfaces) {
         const bool last = surfaces == kMostSurfaces;
         chains.next.clear();

@@ -2,6 +2,7 @@
 // polish, so that all that a picture has of these is a look-up where such a chain ends.
 #pragma once
 
+#include "image_generator/sight_line.h"
 #include "rays/ray_caster.h"
 #include "scene/scattering.h"
 
@@ -73,7 +74,10 @@ struct ChainSettings {
 ///
 /// Past the first surface rays are RayKind::transport: single-sided faces have backs in mirrors and
 /// inside of solids. What a camera ray shows through a pane is still the camera's.
+///
+/// Appends to `lines`, unless it is null, the ways of all rays: what does not meet them changes
+/// nothing that they show.
 void look(const RayCaster& rays, std::span<const Looking> looking, const ChainSettings& settings,
-          std::vector<Sighting>& found);
+          std::vector<Sighting>& found, std::vector<SightLine>* lines = nullptr);
 
 }  // namespace chiaro

@@ -124,6 +124,26 @@ void see_fine(const Viewing& viewing, std::span<const Looking> looking, SeenRow&
     }
 }
 
+// What one ray each sees; all in one row.
+SeenRow see_centres(const Viewing& viewing, std::span<const Looking> looking,
+                    const RowNotes& notes) {
+    const auto width = static_cast<std::size_t>(viewing.view.width());
+    SeenRow row;
+    row.start(width);
+    row.rays.assign(width, 1);
+    thread_local std::vector<Sighting> sightings;
+    look(viewing.rays, looking, viewing.chains, sightings, notes.lines);
+    row.pieces.reserve(sightings.size());
+    for (const std::uint32_t i : by_pixel(looking, sightings)) {
+        const Sighting& s = sightings[i];
+        const std::uint32_t x = looking[s.looking].x;
+        if (s.hit) row.pieces.push_back(make_piece(s, x, viewing.aov));
+        row.add(x, s);
+    }
+    if (notes.centres) *notes.centres = make_centre_row(viewing.rays.scene(), looking, sightings);
+    return row;
+}
+
 // Ray `r` of a later pass, at the place that it had in the first look, so that both agree on what
 // covers the pixel. Each pass has the sequence's directions in another order: all places meet all
 // of them in the end.
@@ -157,24 +177,20 @@ Viewing make_viewing(const RayCaster& rays, const View& view, const RayViewSetti
             glm::length(view.ray(x + 1, y).direction - view.ray(x, y).direction)};
 }
 
-SeenRow see_row(const Viewing& viewing, int y, CentreRow* centres) {
-    const int width = viewing.view.width();
-    SeenRow row;
-    row.start(static_cast<std::size_t>(width));
-    row.rays.assign(width, 1);
-    std::vector<Looking> looking(width);
-    for (int x = 0; x < width; ++x) looking[x] = look_at(viewing.view, x, y, Vec2(0.5f));
+SeenRow see_row(const Viewing& viewing, int y, const RowNotes& notes) {
+    std::vector<Looking> looking(viewing.view.width());
+    for (int x = 0; x < viewing.view.width(); ++x)
+        looking[x] = look_at(viewing.view, x, y, Vec2(0.5f));
+    return see_centres(viewing, looking, notes);
+}
 
-    thread_local std::vector<Sighting> sightings;
-    look(viewing.rays, looking, viewing.chains, sightings);
-    row.pieces.reserve(sightings.size());
-    for (const std::uint32_t i : by_pixel(looking, sightings)) {
-        const Sighting& s = sightings[i];
-        const std::uint32_t x = looking[s.looking].x;
-        if (s.hit) row.pieces.push_back(make_piece(s, x, viewing.aov));
-        row.add(x, s);
-    }
-    if (centres) *centres = make_centre_row(viewing.rays.scene(), looking, sightings);
+SeenRow see_part_of_row(const Viewing& viewing, int y, std::vector<char> wanted,
+                        std::vector<SightLine>& lines) {
+    std::vector<Looking> looking;
+    for (int x = 0; x < viewing.view.width(); ++x)
+        if (wanted[x]) looking.push_back(look_at(viewing.view, x, y, Vec2(0.5f)));
+    SeenRow row = see_centres(viewing, looking, {.lines = &lines});
+    row.looked = std::move(wanted);
     return row;
 }
 

@@ -28,7 +28,9 @@ struct SeenRow {
     // Of pixels that show something by chance: the background less that, and how many rays saw it.
     std::vector<Rgb> steady;
     std::vector<std::uint32_t> rays;
+    std::vector<char> looked;  // by x, where not all of the row was looked at: whether it was here
 
+    bool has(std::uint32_t x) const { return looked.empty() || looked[x]; }
     void start(std::size_t width) {
         background.assign(width, Rgb(0));
         steady.assign(width, Rgb(0));
@@ -50,9 +52,19 @@ struct Viewing {
 };
 Viewing make_viewing(const RayCaster& rays, const View& view, const RayViewSettings& settings);
 
-/// One ray through the centre of each pixel of row `y`; `centres` gets what they met, unless it is
-/// null.
-SeenRow see_row(const Viewing& viewing, int y, CentreRow* centres);
+/// What else is to be noted of a row, where it is not null: what the pixels' centres met, and the
+/// rays' ways, which are appended.
+struct RowNotes {
+    CentreRow* centres = nullptr;
+    std::vector<SightLine>* lines = nullptr;
+};
+
+/// One ray through the centre of each pixel of row `y`.
+SeenRow see_row(const Viewing& viewing, int y, const RowNotes& notes);
+
+/// Likewise of the pixels that `wanted` marks, by x; the others are not SeenRow::looked at.
+SeenRow see_part_of_row(const Viewing& viewing, int y, std::vector<char> wanted,
+                        std::vector<SightLine>& lines);
 
 /// For each pixel of row `y`, whether something other than what its centre's ray met straight shows
 /// in it: what is thinner than a pixel. Looks at four places in pixels that are not `known` to need

@@ -1,5 +1,6 @@
 #include "shading_cache/id_map.h"
 
+#include "base/parallel.h"
 #include "shading_cache/interpolate.h"
 
 #include <algorithm>
@@ -56,9 +57,23 @@ void hand_down(ShadingCache& cache, IdMap& map, PatchId parent, Cycle now) {
     }
 }
 
+// Hands a root's fragments down to the leaves. Touches nothing of other roots.
+void hand_to_leaves(ShadingCache& cache, IdMap& map, PatchId root, Cycle now) {
+    weigh(map, cache.patch(root));
+    std::vector<PatchId> open = {root};
+    while (!open.empty()) {
+        const PatchId id = open.back();
+        open.pop_back();
+        if (cache.patch(id).is_leaf() || cache.patch(id).fragment_count == 0) continue;
+        hand_down(cache, map, id, now);
+        for (int c = 0; c < child_count(cache.patch(id).split); ++c)
+            open.push_back(offset_by(cache.patch(id).first_child, c));
+    }
+}
+
 }  // namespace
 
-void attach(ShadingCache& cache, IdMap& map, Cycle now) {
+void attach(ShadingCache& cache, IdMap& map, Cycle now, int threads) {
     for (Patch& patch : cache.patches()) {
         if (patch.fragment_count > 0) patch.last_seen = now;  // in view until now
         patch.fragment_count = 0;
@@ -68,11 +83,11 @@ void attach(ShadingCache& cache, IdMap& map, Cycle now) {
     // Fragments by root: count, place, fill.
     for (const Fragment& f : map.fragments) ++cache.patch(f.patch).fragment_count;
     std::uint32_t next = 0;
-    std::vector<PatchId> open;
+    std::vector<PatchId> roots;
     for (std::size_t i = 0; i < cache.patches().size(); ++i) {
         Patch& patch = cache.patches()[i];
         if (patch.fragment_count == 0) continue;
-        open.push_back(static_cast<PatchId>(i));
+        roots.push_back(static_cast<PatchId>(i));
         patch.first_fragment = next;
         patch.last_seen = now;
         next += patch.fragment_count;
@@ -84,16 +99,8 @@ void attach(ShadingCache& cache, IdMap& map, Cycle now) {
         map.order[patch.first_fragment + patch.fragment_count++] = f;
     }
 
-    // Then from each root down to the leaves.
-    for (const PatchId root : open) weigh(map, cache.patch(root));
-    while (!open.empty()) {
-        const PatchId id = open.back();
-        open.pop_back();
-        if (cache.patch(id).is_leaf() || cache.patch(id).fragment_count == 0) continue;
-        hand_down(cache, map, id, now);
-        for (int c = 0; c < child_count(cache.patch(id).split); ++c)
-            open.push_back(offset_by(cache.patch(id).first_child, c));
-    }
+    parallel_for(threads, roots.size(),
+                 [&](std::size_t i) { hand_to_leaves(cache, map, roots[i], now); });
 }
 
 PatchId subdivide_seen(ShadingCache& cache, IdMap& map, PatchId leaf, Cycle now) {

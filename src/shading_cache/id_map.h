@@ -24,8 +24,10 @@ struct Glint {
     std::uint32_t pixel;
     SurfacePoint where;
     bool front;
-    Vec3 seen_from;  // a place on the ray that shows it, world space
-    Rgb weight;      // radiance in the pixel over radiance toward there
+    Vec3 seen_from;      // a place on the ray that shows it, world space
+    Rgb weight;          // radiance in the pixel over radiance toward there
+    Rgb light = Rgb(0);  // radiance toward there of lights [cd/m2 a channel], once
+    bool lit = false;    // that was sampled
 };
 
 /// A pixel in which polish shows something, which the first look at it found by chance. Of the
@@ -45,8 +47,7 @@ struct IdMap {
     std::vector<Fragment> fragments;            // in order of pixels
     std::vector<std::uint32_t> first_of_pixel;  // width x height + 1 entries
     std::vector<std::uint32_t> order;           // fragments by patch: Patch::first_fragment
-    // Radiance that needs no shading: emission, the environment where nothing hides it, and what
-    // the glints show once that is sampled.
+    // Radiance that needs no shading: emission, and the environment where nothing hides it.
     Image background;
     std::vector<Glint> glints;  // in order of pixels; the background lacks what they show of lights
     std::vector<ChancePixel> chance_pixels;  // in order of pixels
@@ -61,7 +62,7 @@ struct IdMap {
 /// Makes `map` the view of the cache: hands each fragment, which names a root and a place on it,
 /// down to its leaf, counts and weighs fragments of all patches, and marks these as seen, as well
 /// as what the view before this one showed until now.
-void attach(ShadingCache& cache, IdMap& map, Cycle now);
+void attach(ShadingCache& cache, IdMap& map, Cycle now, int threads = 1);
 
 /// Divides a leaf and hands its fragments to the children. Returns the first child.
 PatchId subdivide_seen(ShadingCache& cache, IdMap& map, PatchId leaf, Cycle now);

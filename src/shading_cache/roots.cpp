@@ -34,6 +34,10 @@ ShadingCache::MeshPlace ShadingCache::mesh_place(std::uint32_t surface_side) con
             first_mesh_vertex_[object], surface_side & 1};
 }
 
+PatchId ShadingCache::known_root(ObjectId object, std::uint32_t primitive, bool front) const {
+    return roots_[2 * (first_primitive_[index_of(object)] + primitive) + (front ? 0 : 1)];
+}
+
 PatchId ShadingCache::root(ObjectId object, std::uint32_t primitive, bool front) {
     const std::uint32_t side =
         2 * (first_primitive_[index_of(object)] + primitive) + (front ? 0 : 1);

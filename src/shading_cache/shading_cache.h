@@ -65,6 +65,8 @@ public:
     /// The root patch on one side of a primitive; made, unshaded, when first asked for (3:
     /// "evaluated lazily"), and so are its corners and all vertices above these.
     PatchId root(ObjectId object, std::uint32_t primitive, bool front);
+    /// That root, if somebody has asked for it; else none.
+    PatchId known_root(ObjectId object, std::uint32_t primitive, bool front) const;
 
     /// Divides `leaf` and returns the first child. Midpoints that a neighbour has made already are
     /// shared, so that nothing is shaded twice. Checks: `leaf` has no children and is divisible.

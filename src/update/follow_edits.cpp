@@ -28,7 +28,9 @@ void UpdateCycle::look_from(const View& view) {
     }
     eye_track_.move_to(view.eye(), now);
     view_ = view;
+    view_change_.everywhere = true;
     stage_ = Stage::new_view;
+    note_change();
 }
 
 void UpdateCycle::scene_changed(const SceneChange& change, SampleRenderer& renderer) {
@@ -42,7 +44,18 @@ void UpdateCycle::scene_changed(const SceneChange& change, SampleRenderer& rende
     if (stage_ == Stage::refining) gloss_rates_.clear();
     edited_ = moving_ = true;
     edited_at_ = gloss_stale_at_ = static_cast<Cycle>(statistics_.cycles);
+    view_change_.add(view_change_of(change));
     if (stage_ != Stage::nothing) stage_ = Stage::new_view;
+    note_change();
+}
+
+// Who drags something has done so a moment before.
+void UpdateCycle::note_change() {
+    constexpr Cycle kMoment = 3;
+    const auto now = static_cast<Cycle>(statistics_.cycles);
+    if (changed_at_ == now) return;
+    dragged_ = changed_at_ && now - *changed_at_ <= kMoment;
+    changed_at_ = now;
 }
 
 // What an edit has outdated shows what it showed until it is shaded again; but where most of that
@@ -58,9 +71,10 @@ void UpdateCycle::lower_what_changes() {
         const ChannelPlan& plan = plans_[c];
         const std::uint32_t samples = settings_.scheme == Scheme::paper
                                           ? plan.first_samples + plan.indirect_samples
-                                          : kMostFirstSamples * plan.first_samples;
+                                          : (dragged_ ? 1 : kMostFirstSamples) * plan.first_samples;
         lower_resolution(cache_, c, changing,
-                         static_cast<std::size_t>(affordable(c, seconds, samples)));
+                         static_cast<std::size_t>(affordable(c, seconds, samples)),
+                         dragged_ ? Rest::waits : Rest::too);
     }
 }
 

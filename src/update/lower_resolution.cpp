@@ -59,22 +59,31 @@ void lower_front(ShadingCache& cache, int channel, float least, const std::vecto
 }  // namespace
 
 std::size_t lower_resolution(ShadingCache& cache, int channel, std::span<const char> changing,
-                             std::size_t most) {
+                             std::size_t most, Rest rest) {
     if (std::ranges::count(changing, 0) == std::ssize(changing)) return 0;
     const std::vector<char> stale = stale_on(cache, channel, changing);
-    const std::vector<float> pixels = pixels_spoken_for(cache, channel);
+    std::vector<float> pixels = pixels_spoken_for(cache, channel);
     std::vector<float> of_stale;
     for (std::size_t i = 0; i < pixels.size(); ++i)
         if (pixels[i] > 0 && stale[i]) of_stale.push_back(pixels[i]);
+    float least = 0;
     if (of_stale.size() > most) {
         const auto last = of_stale.begin() + static_cast<std::ptrdiff_t>(most);
         std::nth_element(of_stale.begin(), last, of_stale.end(), std::greater<>());
-        lower_front(cache, channel, *last, stale);
+        least = *last;
+        lower_front(cache, channel, least, stale);
+    }
+    // What is drawn still, of those that cannot be paid.
+    std::vector<char> shown(pixels.size(), 0);
+    if (rest == Rest::waits && least > 0) {
+        const std::vector<float> drawn = pixels_spoken_for(cache, channel);
+        for (std::size_t i = 0; i < shown.size(); ++i)
+            shown[i] = drawn[i] > 0 && pixels[i] <= least ? 1 : 0;
     }
 
     std::size_t count = 0;
     for (std::size_t i = 0; i < stale.size(); ++i) {
-        if (!stale[i]) continue;
+        if (!stale[i] || shown[i]) continue;
         cache.forget(static_cast<VertexId>(i), static_cast<std::uint8_t>(1u << channel));
         ++count;
     }

@@ -1,7 +1,7 @@
-// The map, and what polish in it shows by chance: once with the map, and by further passes while
-// the view rests.
+// What polish shows by chance: passes that go on while the view rests.
 
 #include "sample_selector/gain.h"
+#include "update/glints.h"
 #include "update/update_cycle.h"
 
 #include <algorithm>
@@ -12,61 +12,10 @@
 namespace chiaro {
 namespace {
 
-// Samples of lights that a pixel's polish takes when the view rests, and again in every pass.
-constexpr std::uint32_t kGlintSamples = 4 * kReplicates;
-
 // Of a cycle's time, for passes over polish.
 constexpr double kPolishShare = 0.1;
 
-// The larger its part, the more samples; a multiple of kReplicates.
-ShadeRequest glint_request(const Glint& glint, std::uint32_t seed, std::uint32_t samples) {
-    ShadeRequest request;
-    request.where = glint.where;
-    request.front = glint.front;
-    request.light = Light::glint;
-    request.eye = glint.seen_from;
-    request.seed = seed;
-    const float part = std::min(max_component(glint.weight), 1.0f);
-    request.samples =
-        kReplicates *
-        static_cast<std::uint32_t>(std::ceil(part * static_cast<float>(samples / kReplicates)));
-    return request;
-}
-
 }  // namespace
-
-RayViewSettings UpdateCycle::view_settings() const {
-    return {.aov = settings_.aov,
-            .threads = settings_.threads,
-            .cached_facets = settings_.cached_facets,
-            .environment = environment_};
-}
-
-void UpdateCycle::make_map(ViewQuality quality) {
-    const StepTimer timer(statistics_.timings, Step::sample_selection);
-    RayViewSettings view = view_settings();
-    view.quality = quality;
-    map_ = make_id_map(cache_, *rays_, *view_, view, open_sides_);
-    attach(cache_, map_, static_cast<Cycle>(statistics_.cycles));
-    add_glints(quality == ViewQuality::one_ray ? kGlintSamples / 4 : kGlintSamples);
-}
-
-// What polish shows of lights is sampled a pixel, as the view is.
-void UpdateCycle::add_glints(std::uint32_t samples) {
-    const StepTimer timer(statistics_.timings, Step::rendering);
-    std::vector<ShadeRequest> requests;
-    for (const Glint& glint : map_.glints) {
-        const auto index = static_cast<std::uint32_t>(requests.size());
-        requests.push_back(glint_request(glint, hash32(hash64(settings_.seed), index), samples));
-    }
-    std::vector<ShadeResult> results(requests.size());
-    renderer_->shade(requests, results);
-    for (std::size_t i = 0; i < results.size(); ++i) {
-        const Glint& glint = map_.glints[i];
-        map_.background.pixels[glint.pixel] += glint.weight * results[i].mean;
-    }
-    map_.glints = {};
-}
 
 double UpdateCycle::polish_share() const {
     return map_.chance_pixels.empty() ? 0 : kPolishShare;

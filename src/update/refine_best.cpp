@@ -86,6 +86,13 @@ double UpdateCycle::seconds_budget() const {
     return settings_.fixed_size ? kFixedSeconds : settings_.cycle_seconds * threads_at_once();
 }
 
+// Processor seconds for refinement; while edits come in every cycle, what the start has left.
+double UpdateCycle::refine_seconds() const {
+    constexpr double kLeast = 0.2;  // of a cycle
+    if (in_haste() && !settings_.fixed_size) return seconds_left(kLeast) / overrun_;
+    return seconds_budget() * (1 - polish_share());
+}
+
 double UpdateCycle::work_seconds(const ShadeWork& work) const {
     double seconds = 0;
     for (int c = 0; c < cache_.channels(); ++c)
@@ -95,7 +102,7 @@ double UpdateCycle::work_seconds(const ShadeWork& work) const {
 
 void UpdateCycle::choose(ShadeWork& work) {
     const StepTimer timer(statistics_.timings, Step::sample_selection);
-    const double budget = seconds_budget() * (1 - polish_share());
+    const double budget = refine_seconds();
     // Each choice either adds work or takes a patch out of the draw, so this ends.
     for (int tries = 0; tries < 200000 && work_seconds(work) < budget; ++tries) {
         if (rng_.uniform() < kChance) {

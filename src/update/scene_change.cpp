@@ -47,7 +47,11 @@ SceneChange change_of(std::span<const EditEffect> effects) {
         change.materials |= effect.material != MaterialId::none;
         if (effect.material != MaterialId::none) change.repainted.push_back(effect.material);
         change.passing |= effect.passing;
-        if (!effect.geometry || effect.object == ObjectId::none) continue;
+        if (effect.object == ObjectId::none) continue;
+        if (!effect.geometry) {
+            if (effect.after) change.relit.push_back(*effect.after);
+            continue;
+        }
         const Places places = {effect.before, effect.after};
         if (const auto [known, is_new] = moved.try_emplace(effect.object, places); !is_new)
             known->second.after = effect.after;

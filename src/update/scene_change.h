@@ -14,6 +14,7 @@ struct SceneChange {
     bool materials = false;       // a surface reflects otherwise
     bool passing = false;         // one that stands lets other light through: it may be anywhere
     std::vector<Box> boxes;       // where something was, or where it is now (world space)
+    std::vector<Box> relit;       // where surfaces shine otherwise that have not moved
     std::vector<ObjectId> moved;  // in order, each once
     std::vector<MaterialId> repainted;  // materials that are others now
 

@@ -24,8 +24,9 @@ std::uint32_t vertex_seed(const ShadingCache& cache, VertexId id, int channel,
 
 }  // namespace
 
-ShadeWork::ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed, Vec3 eye)
-    : seed_(seed), eye_(eye) {
+ShadeWork::ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed, Vec3 eye,
+                     std::uint32_t enough_to_be_dark)
+    : seed_(seed), eye_(eye), enough_to_be_dark_(enough_to_be_dark) {
     for (const ChannelPlan& plan : plans) channels_.push_back({plan, {}, {}, 0});
 }
 
@@ -104,7 +105,7 @@ bool ShadeWork::surely_dark(const ShadingCache& cache, VertexId vertex) const {
         const Estimate* e = cache.estimate(vertex, static_cast<int>(c));
         if (!e || e->stale || max_component(e->mean) > 0) return false;
         if (!plan.zero_is_buried) continue;
-        if (e->samples < kEnoughToBeDark) return false;
+        if (e->samples < enough_to_be_dark_) return false;
         enough = true;
     }
     return enough;
@@ -123,7 +124,7 @@ void ShadeWork::judge_buried(ShadingCache& cache, VertexId vertex, int channel,
 ShadeWork ShadeWork::doubts(const ShadingCache& cache) const {
     std::vector<ChannelPlan> plans;
     for (const Channel& c : channels_) plans.push_back(c.plan);
-    ShadeWork more(plans, seed_, eye_);
+    ShadeWork more(plans, seed_, eye_, enough_to_be_dark_);
     const auto dark_so_far = [&](VertexId v, int channel) {
         const Estimate* e = cache.estimate(v, channel);
         return !e || e->stale || max_component(e->mean) == 0;
@@ -141,8 +142,8 @@ ShadeWork ShadeWork::doubts(const ShadingCache& cache) const {
                 const Estimate* e = cache.estimate(v, other);
                 if (!e || e->stale) more.resample(cache, v, other, plans[other].first_samples);
             }
-            if (cache.estimate(v, c)->samples < kEnoughToBeDark)
-                more.resample(cache, v, c, kEnoughToBeDark);
+            if (cache.estimate(v, c)->samples < enough_to_be_dark_)
+                more.resample(cache, v, c, enough_to_be_dark_);
         }
     }
     return more;

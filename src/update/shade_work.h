@@ -27,8 +27,10 @@ struct ChannelPlan {
 class ShadeWork {
 public:
     /// `seed` is the session's; a vertex's own follows from it, its place and its channel. `eye` is
-    /// where glossy light is seen from.
-    ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed, Vec3 eye = Vec3(0));
+    /// where glossy light is seen from. From `enough_to_be_dark` samples without any light on one
+    /// is dark.
+    ShadeWork(std::vector<ChannelPlan> plans, std::uint64_t seed, Vec3 eye = Vec3(0),
+              std::uint32_t enough_to_be_dark = kEnoughToBeDark);
 
     /// Asks for `samples` first samples of a vertex (0: as the plan says), unless it is evaluated
     /// or asked for. Returns whether it was added.
@@ -53,6 +55,8 @@ public:
 
     static constexpr std::uint32_t kMostAtOnce = 8192;
     static constexpr std::uint32_t kEnoughToBeDark = 256;
+    /// In haste, to be judged again.
+    static constexpr std::uint32_t kFewToBeDark = 64;
 
 private:
     bool add(const ShadingCache& cache, VertexId vertex, int channel, std::uint32_t first,
@@ -70,6 +74,7 @@ private:
     std::unordered_set<std::uint64_t> asked_;
     std::uint64_t seed_;
     Vec3 eye_;
+    std::uint32_t enough_to_be_dark_;
 };
 
 }  // namespace chiaro

@@ -17,6 +17,13 @@ constexpr double kFixedFirstPictureSeconds = 0.15;
 constexpr double kDirectShare = 0.15;
 constexpr double kGlossyShare = 0.5;
 
+// How long a cycle may be while edits come all the time, in times of what it adjusts itself to; the
+// least part of that for a start, however long the map has taken; and how much dearer samples may
+// turn out, of a scene that the renderer has yet to learn.
+constexpr double kDraggedCycle = 1.5;
+constexpr double kLeastStart = 0.4;
+constexpr double kMostOverrun = 4;
+
 }  // namespace
 
 // Everything in view, at an even density that the first picture's budget can pay. The paper's
@@ -34,11 +41,34 @@ void UpdateCycle::start() {
         const StepTimer timer(statistics_.timings, Step::patch_subdivision);
         const double seconds = start_seconds();
         for (int c = 0; c < cache_.channels(); ++c) start_channel(c, seconds, work);
+        if (!in_haste() && hasty_) judge_buried_again(work);
+        hasty_ = in_haste();
     }
+    const auto before = std::chrono::steady_clock::now();
+    const double planned = work_seconds(work);
     shade(work);
     if (settings_.scheme == Scheme::best) dig_out();
+    if (in_haste() && planned > 0) {
+        const double taken = seconds_since(before) * threads_at_once() / planned;
+        overrun_ += 0.3 * (std::clamp(taken, 1.0, kMostOverrun) - overrun_);
+    }
     estimate_exposure();
     refresh(Extent::everything);
+}
+
+// Vertices that few samples found dark while edits came in every cycle.
+void UpdateCycle::judge_buried_again(ShadeWork& work) {
+    for (std::size_t i = 0; i < cache_.vertices().size(); ++i) {
+        const auto v = static_cast<VertexId>(i);
+        if (!cache_.vertex(v).buried || !cache_.dark(v)) continue;
+        for (int c = 0; c < cache_.channels(); ++c) {
+            const Estimate* e = cache_.estimate(v, c);
+            if (!plans_[c].zero_is_buried || !e || e->samples >= ShadeWork::kEnoughToBeDark)
+                continue;
+            cache_.unmark_buried(v);
+            work.resample(cache_, v, c, ShadeWork::kEnoughToBeDark);
+        }
+    }
 }
 
 void UpdateCycle::attach_front() {
@@ -64,16 +94,26 @@ void UpdateCycle::dig_out() {
         }
         if (work.points() == 0) break;
         shade(work);
+        // More is to come, and digs on.
+        if (in_haste() && !settings_.fixed_size && seconds_left(0) == 0) break;
     }
     for (std::size_t i = 0; i < cache_.patches().size(); ++i)
         expose_if_seen(cache_, static_cast<PatchId>(i));
 }
 
-// Processor seconds for the first picture. While edits come, the next one comes soon.
+// Processor seconds for the first picture. While edits come in every cycle, half of what the map
+// has left of one.
 double UpdateCycle::start_seconds() const {
     if (settings_.fixed_size) return kFixedFirstPictureSeconds;
+    if (in_haste()) return 0.5 * seconds_left(kLeastStart) / overrun_;
     return threads_at_once() *
            (moving_ ? settings_.clean_up_seconds : settings_.first_picture_seconds);
+}
+
+// Processor seconds until this cycle is as long as may be, and no fewer than a part of one.
+double UpdateCycle::seconds_left(double fewest) const {
+    const double left = kDraggedCycle * settings_.cycle_seconds - seconds_since(cycle_start_);
+    return threads_at_once() * std::max(left, fewest * settings_.cycle_seconds);
 }
 
 double UpdateCycle::first_picture_share(int channel) const {

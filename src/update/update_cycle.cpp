@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/tone_map.h"
-#include "image_generator/view_curves.h"
 #include "scene/bsdf.h"
+#include "update/glints.h"
 
 #include <algorithm>
 #include <chrono>
@@ -16,9 +16,10 @@ namespace {
 // Light that is several dB off is seen before outlines are, whose rays take several times as long
 // as those of the first picture. What goes into light before them: so many times these, but no more
 // seconds than anyone would wait for.
+constexpr double kMostSecondsBeforeOutlines = 0.5;
 double seconds_before_outlines(double seconds_of_first_map) {
-    constexpr double kTimes = 3, kMostSeconds = 0.5;
-    return std::min(kTimes * seconds_of_first_map, kMostSeconds);
+    constexpr double kTimes = 3;
+    return std::min(kTimes * seconds_of_first_map, kMostSecondsBeforeOutlines);
 }
 
 // Whether the picture shows light that glossy surfaces' vertices are asked for.
@@ -134,22 +135,19 @@ void UpdateCycle::follow_plans() {
 
 void UpdateCycle::run() {
     check(view_.has_value(), "UpdateCycle: look_from() comes before run()");
-    const auto start_time = std::chrono::steady_clock::now();
+    cycle_start_ = std::chrono::steady_clock::now();
     switch (stage_) {
         case Stage::new_view: {
-            {
-                const StepTimer timer(statistics_.timings, Step::tessellation);
-                show_curves(*rays_, *view_, settings_.threads);
-            }
-            make_map(ViewQuality::one_ray);
-            const double seconds_of_map = seconds_since(start_time);
+            renew_map();
+            const double seconds_of_map = seconds_since(cycle_start_);
             restart_polish();
             start();
             // While somebody drags a chair, every cycle is the first of a view.
             if (stale_.in_view > 0) refine_by_scheme();
             stage_ = Stage::covered;
-            outlines_from_ = statistics_.seconds + seconds_since(start_time) +
-                             seconds_before_outlines(seconds_of_map);
+            outlines_from_ =
+                statistics_.seconds + seconds_since(cycle_start_) +
+                (dragged_ ? kMostSecondsBeforeOutlines : seconds_before_outlines(seconds_of_map));
             break;
         }
         case Stage::covered:
@@ -159,8 +157,9 @@ void UpdateCycle::run() {
                 break;
             }
             // The view rests: outlines and textures deserve more rays now.
-            moving_ = false;
-            make_map(ViewQuality::antialiased);
+            moving_ = dragged_ = false;
+            if (map_quality_ != ViewQuality::antialiased) make_map(ViewQuality::antialiased);
+            light_glints(kGlintSamples);
             restart_polish();
             start();
             stage_ = Stage::refining;
@@ -171,7 +170,7 @@ void UpdateCycle::run() {
     }
     age();
     ++statistics_.cycles;
-    statistics_.seconds += seconds_since(start_time);
+    statistics_.seconds += seconds_since(cycle_start_);
 }
 
 void UpdateCycle::refine_by_scheme() {
@@ -179,7 +178,8 @@ void UpdateCycle::refine_by_scheme() {
 }
 
 ShadeWork UpdateCycle::new_work() const {
-    return {plans_, settings_.seed, view_->eye()};
+    return {plans_, settings_.seed, view_->eye(),
+            in_haste() ? ShadeWork::kFewToBeDark : ShadeWork::kEnoughToBeDark};
 }
 
 void UpdateCycle::shade(ShadeWork& work) {
@@ -241,9 +241,11 @@ Image UpdateCycle::picture(const FadeIn* fade) {
 // The scale on which errors are weighed: that of the pictures' comparison, from every few pixels.
 void UpdateCycle::estimate_exposure() {
     const StepTimer timer(statistics_.timings, Step::sample_selection);
-    Image thin(static_cast<int>(map_.first_of_pixel.size() / 7), 1);
+    constexpr std::size_t kPixels = 16384;
+    const std::size_t step = std::max<std::size_t>(7, map_.background.pixels.size() / kPixels);
+    Image thin(static_cast<int>(map_.first_of_pixel.size() / step), 1);
     for (std::size_t i = 0; i < thin.pixels.size(); ++i) {
-        const auto pixel = static_cast<std::uint32_t>(7 * i);
+        const auto pixel = static_cast<std::uint32_t>(step * i);
         thin.pixels[i] = map_.background.pixels[pixel];
         for (const Fragment& f : map_.at_pixel(pixel)) thin.pixels[i] += shown_by(cache_, f);
     }
@@ -257,7 +259,8 @@ void UpdateCycle::age() {
     if (!age_out(cache_, settings_.aging, now)) return;
     // All ids have changed: look again.
     for (SumTree& tree : front_) tree.clear();
-    make_map(stage_ == Stage::refining ? ViewQuality::antialiased : ViewQuality::one_ray);
+    make_map(map_quality_);
+    light_glints(map_quality_ == ViewQuality::antialiased ? kGlintSamples : kGlintSamples / 4);
     // The view is the same, and so are its pixels: what passes have shown of them stays.
     if (polish_.size() != map_.chance_pixels.size()) restart_polish();
     attach_front();

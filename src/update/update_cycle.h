@@ -1,7 +1,7 @@
 // The arrows of Figure 2: one cycle selects, shades or subdivides, stores, ages and resolves.
 #pragma once
 
-#include "image_generator/ray_view.h"
+#include "image_generator/seen_view.h"
 #include "sample_selector/mesh_front.h"
 #include "sample_selector/select_samples.h"
 #include "sample_selector/sum_tree.h"
@@ -14,7 +14,9 @@
 #include "update/scene_change.h"
 #include "update/shade_work.h"
 #include "update/timings.h"
+#include "update/view_change.h"
 
+#include <chrono>
 #include <optional>
 
 namespace chiaro {
@@ -37,7 +39,8 @@ struct UpdateSettings {
     std::uint32_t indirect_samples = 400;
     double cycle_seconds = 0.05;          // the length that a cycle adjusts itself to
     double first_picture_seconds = 0.2;   // what the first cycle may spend on shading
-    double clean_up_seconds = 0.1;        // in which all that an edit changes is shaded again
+    double clean_up_seconds = 0.1;        // in which all that an edit changes is shaded again;
+                                          // less, where edits come in every cycle
     float cached_facets = kCachedFacets;  // as RayViewSettings has it
     // Cycles of a fixed size, by assumed costs instead of measured ones: the same bits on any
     // machine.
@@ -48,6 +51,7 @@ struct UpdateSettings {
 struct Statistics {
     std::size_t cycles = 0;
     std::size_t points_shaded = 0;         // evaluations of one channel at one vertex
+    std::size_t pixels_seen = 0;           // by one ray each, for maps of views that move
     std::array<std::size_t, 8> samples{};  // a channel
     double seconds = 0;                    // wall time of all cycles
     Timings timings;
@@ -102,9 +106,13 @@ public:
     std::size_t bytes() const;
 
 private:
+    void renew_map();
     void make_map(ViewQuality quality);
+    void see_changes(std::span<const Box> boxes);
+    void attach_map();
     RayViewSettings view_settings() const;
-    void add_glints(std::uint32_t samples);
+    void light_glints(std::uint32_t samples);
+    std::vector<std::size_t> glints_to_light(std::uint32_t samples) const;
     double polish_share() const;
     void restart_polish();
     void polish();
@@ -113,6 +121,9 @@ private:
     void light_pixels(const ChancePass& seen, std::span<Rgb> light);
     void follow_plans();
     ShadeWork new_work() const;
+    void note_change();
+    bool in_haste() const { return dragged_ && stage_ == Stage::new_view; }
+    void judge_buried_again(ShadeWork& work);
     void start();
     void attach_front();
     void dig_out();
@@ -123,6 +134,7 @@ private:
                   ShadeWork& work) const;
     std::vector<VertexId> evaluated_first(const ShadeWork& work, int channel) const;
     double start_seconds() const;
+    double seconds_left(double fewest) const;
     double first_picture_share(int channel) const;
     void refine_by_scheme();
     void refine();
@@ -159,6 +171,7 @@ private:
     int threads_at_once() const;
     double work_seconds(const ShadeWork& work) const;
     double seconds_budget() const;
+    double refine_seconds() const;
 
     RayCaster* rays_;
     SampleRenderer* renderer_;
@@ -167,17 +180,24 @@ private:
     std::vector<ChannelPlan> plans_;
     ShadingCache cache_;
     IdMap map_;
+    ViewQuality map_quality_ = ViewQuality::one_ray;
+    std::optional<SeenView> seen_;  // what the map was made of, while objects move in it
+    Image unlit_;                   // the map's background without what glints show
+    ViewChange view_change_;        // since the map was made
     PolishMeans polish_;
     bool environment_;  // there is one that shines
     std::optional<View> view_;
     enum class Stage { nothing, new_view, covered, refining } stage_ = Stage::nothing;
-    bool edited_ = false;       // since the last cycle, so that something may be stale
-    bool moving_ = false;       // the scene was, not the camera alone, before the last look
-    Cycle edited_at_ = 0;       // cycle before which the scene last was
-    Cycle gloss_stale_at_ = 0;  // likewise, or the eye moved
-    Cycle reconsider_at_ = 0;   // when stale estimates are looked at again
-    StaleCount stale_;          // when they were counted last
-    ExpectedChange expected_;   // of these
+    bool edited_ = false;              // since the last cycle, so that something may be stale
+    bool moving_ = false;              // the scene was, not the camera alone, before the last look
+    Cycle edited_at_ = 0;              // cycle before which the scene last was
+    Cycle gloss_stale_at_ = 0;         // likewise, or the eye moved
+    std::optional<Cycle> changed_at_;  // scene or view, the cycle before which they last were
+    bool dragged_ = false;             // and shortly before that: more is to come
+    bool hasty_ = false;               // few samples told what is buried, for the time being
+    Cycle reconsider_at_ = 0;          // when stale estimates are looked at again
+    StaleCount stale_;                 // when they were counted last
+    ExpectedChange expected_;          // of these
     EyeTrack eye_track_;
     std::vector<float> gloss_rates_;  // by object: age priorities since the eye moved (5.1)
     double outlines_from_ = 0;  // of statistics_.seconds: when outlines of this view are smoothed
@@ -197,6 +217,9 @@ private:
     double paper_sample_count_ = 70;
     double polish_credit_ = 0;  // processor seconds that passes over polish may take now
     double seconds_a_polished_pixel_;
+    double seconds_a_glint_sample_ = 1e-6;  // of a processor
+    double overrun_ = 1;  // processor seconds of a start over those that its samples should take
+    std::chrono::steady_clock::time_point cycle_start_;
     std::vector<SelectedPixel> selection_;
     Statistics statistics_;
 };

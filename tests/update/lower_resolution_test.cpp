@@ -54,6 +54,27 @@ TEST(LowerResolution, TheFinestPatchesGoFirst) {
     EXPECT_FALSE(s.cache.patch(s.child).refined(0));
 }
 
+// Of two squares beside each other, 64 pixels and 4, there is time for the larger one's corners:
+// the two that the smaller one has alone show what they showed.
+TEST(LowerResolution, WhatCannotBePaidWaits) {
+    const Scene scene = grid(2, 1);
+    const MeshGraphs graphs(scene, CoarserLevels::none, 1);
+    ShadingCache cache(scene, graphs, {1}, SplitRule::always_four);
+    cache.patch(cache.root(ObjectId{0}, 0, true)).pixels = 64;
+    cache.patch(cache.root(ObjectId{0}, 1, true)).pixels = 4;
+    ASSERT_EQ(cache.vertices().size(), 6u);
+    for (std::size_t i = 0; i < cache.vertices().size(); ++i) {
+        cache.store(static_cast<VertexId>(i), 0, Rgb(8), 0.25f, 64, 1);
+        cache.outdate(static_cast<VertexId>(i), 0, 1);
+    }
+    EXPECT_EQ(lower_resolution(cache, 0, std::vector<char>{1}, 4, Rest::waits), 4u);
+    const Patch& smaller = cache.patch(cache.root(ObjectId{0}, 1, true));
+    int known = 0;
+    for (int c = 0; c < 4; ++c) known += cache.evaluated(smaller.corners[c], 0) ? 1 : 0;
+    EXPECT_EQ(known, 2);
+    EXPECT_EQ(lower_resolution(cache, 0, std::vector<char>{1}, 4), 2u);
+}
+
 // With time for four alone, the square is one patch again; with time for all, it stays as fine.
 TEST(LowerResolution, AsFineAsTheTimeCanPay) {
     Square coarse;

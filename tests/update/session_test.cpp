@@ -308,5 +308,94 @@ TEST(Session, ALampThatSwingsLeavesNoMemory) {
     EXPECT_LT(static_cast<double>(swung.cycle().bytes()), 1.5 * static_cast<double>(at_rest));
 }
 
+// The hall with a lamp that has no surface, 1 m below the ceiling.
+Scene hall_with_bulb() {
+    Scene scene = hall();
+    PunctualLight bulb = {.name = "bulb", .intensity = Rgb(800)};
+    bulb.position = Vec3(5, 2, 5);
+    scene.lights.push_back(bulb);
+    return scene;
+}
+Edit bulb_at(const Session& session, Vec3 place, float part) {
+    SetLight edit = {LightId{0}, session.scene().lights[0]};
+    edit.value.position = place;
+    edit.value.intensity = Rgb(800 * part);
+    return edit;
+}
+
+double mean_luminance(const Image& picture) {
+    double sum = 0;
+    for (const Rgb& p : picture.pixels) sum += luminance(p);
+    return sum / static_cast<double>(picture.pixels.size());
+}
+
+// Where a light without a surface moves, no ray is sent to see anything again, and fragments stay
+// as fine as they are; where the box moves, rays through fewer than half of the pixels are.
+TEST(Session, OnlyWhatIsSeenOtherwiseIsSeenAgain) {
+    Session session(hall_with_bulb(), kCamera, settings());
+    run(session, 10);
+    const std::size_t pixels = 80 * 60;
+    const auto seen = [&] { return session.cycle().statistics().pixels_seen; };
+    const std::size_t fragments = session.cycle().id_map().fragments.size();
+    const std::size_t at_first = seen();
+    for (int i = 0; i < 5; ++i) {
+        const float x = 4 + 0.5f * static_cast<float>(i);
+        session.apply(bulb_at(session, Vec3(x, 2, 5), 1));
+        session.run();
+    }
+    run(session, 5);
+    EXPECT_EQ(seen(), at_first);
+    EXPECT_EQ(session.cycle().id_map().fragments.size(), fragments);
+
+    // The first time all is seen, to know where rays go.
+    const auto move_box = [&](float x) {
+        session.apply(SetTransform{kBox, glm::translate(Mat4(1), Vec3(x, 0, 0))});
+        session.run();
+    };
+    move_box(0.1f);
+    EXPECT_EQ(seen(), at_first + pixels);
+    move_box(0.2f);
+    EXPECT_GT(seen(), at_first + pixels);
+    EXPECT_LT(seen(), at_first + pixels + pixels / 2);
+}
+
+// Lamp and bulb swing for 240 edits, and rest: the last picture is that of a fresh session, within
+// the noise that two of these have between them, and memory is what one place of them needs,
+// within a half.
+TEST(Session, AfterLongSwingsNothingIsLeftOfThem) {
+    Session swung(hall_with_bulb(), kCamera, settings());
+    run(swung, 20);
+    const std::size_t at_rest = swung.cycle().bytes();
+    for (int i = 0; i < 120; ++i) {
+        const float x = std::sin(0.1f * static_cast<float>(i));
+        swung.apply(bulb_at(swung, Vec3(5 + x, 2, 5), 1.5f + x));
+        swung.apply(SetTransform{ObjectId{1}, glm::translate(Mat4(1), Vec3(x, 0, 0))});
+        swung.run();
+    }
+    EXPECT_LT(static_cast<double>(swung.cycle().bytes()), 1.5 * static_cast<double>(at_rest));
+    swung.apply(bulb_at(swung, Vec3(4, 2, 5), 1));
+    swung.apply(SetTransform{ObjectId{1}, Mat4(1)});
+    run(swung, 40);
+
+    std::vector<Image> fresh;
+    for (const std::uint64_t seed : {11, 12}) {
+        SessionSettings s = settings();
+        s.update.seed = seed;
+        Session session(swung.scene(), kCamera, s);
+        run(session, 40);
+        fresh.push_back(session.cycle().picture());
+    }
+    const Image shown = swung.cycle().picture();
+    double apart = 0, noise = 0;
+    for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
+        const double a = luminance(shown.pixels[i]);
+        const double b = luminance(fresh[0].pixels[i]), c = luminance(fresh[1].pixels[i]);
+        apart += (a - b) * (a - b);
+        noise += (b - c) * (b - c);
+    }
+    EXPECT_LT(std::sqrt(apart / noise), 2.2);
+    EXPECT_NEAR(mean_luminance(shown) / mean_luminance(fresh[0]), 1, 0.01);
+}
+
 }  // namespace
 }  // namespace chiaro
