@@ -1,6 +1,7 @@
 #include "update/outdate.h"
 
 #include "base/parallel.h"
+#include "sample_selector/gain.h"
 #include "scene/perceived_gloss.h"
 
 #include <algorithm>
@@ -125,6 +126,24 @@ std::vector<std::uint8_t> seen_in_view(const ShadingCache& cache) {
         for (const VertexId parent : cache.parents(id)) seen[index_of(parent)] |= predicted;
     }
     return seen;
+}
+
+// Channels in which somebody would sample a vertex again: it is of a mesh, or a corner of a patch
+// in view that may be refined. Others were evaluated beside a channel that is refined farther.
+std::vector<std::uint8_t> sampled_on(const ShadingCache& cache) {
+    std::vector<std::uint8_t> sampled(cache.vertices().size(), 0);
+    for (std::size_t i = 0; i < cache.patches().size(); ++i) {
+        const auto id = static_cast<PatchId>(i);
+        const Patch& patch = cache.patch(id);
+        std::uint8_t front = 0;
+        for (int c = 0; c < cache.channels(); ++c)
+            if (cache.pixels(patch, c) > 0 && on_front(cache, id, c))
+                front |= static_cast<std::uint8_t>(1u << c);
+        for (int k = 0; k < patch.corner_count(); ++k) sampled[index_of(patch.corners[k])] |= front;
+    }
+    for (std::size_t i = 0; i < sampled.size(); ++i)
+        if (cache.vertices()[i].of_mesh) sampled[i] = ShadingCache::kAllChannels;
+    return sampled;
 }
 
 // How glossy it looks, at least 1.
@@ -276,13 +295,19 @@ StaleCount reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
     });
 
     const std::vector<std::uint8_t> in_view = seen_in_view(cache);
+    const std::vector<std::uint8_t> sampled = sampled_on(cache);
     StaleCount stale;
     for (std::size_t k = 0; k < errors.size(); ++k) {
         if (errors[k] == 0) continue;
         const auto id = static_cast<VertexId>(k / channels);
         const auto channel = static_cast<int>(k % channels);
+        const bool seen = in_view[k / channels] >> channel & 1 && !cache.vertex(id).buried;
+        if (seen && !(sampled[k / channels] >> channel & 1)) {
+            cache.forget(id, static_cast<std::uint8_t>(1u << channel));
+            continue;
+        }
         ++stale.all;
-        if (in_view[k / channels] >> channel & 1 && !cache.vertex(id).buried) ++stale.in_view;
+        if (seen) ++stale.in_view;
         const float before = cache.estimate(id, channel)->variance;
         const float factor = errors[k] / std::max(before, 1e-30f);
         if (factor > kWorthChanging || factor * kWorthChanging < 1)

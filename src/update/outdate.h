@@ -63,6 +63,8 @@ struct Waiting {
 
 /// Takes what was found meanwhile for what is stale still: each of these may be off by as much as
 /// others on its object were, and by more the longer it waits, so that all in view have their turn.
+/// Where nobody would sample it, as the channel is not refined so far, it is forgotten: it is
+/// predicted then.
 StaleCount reconsider_stale(ShadingCache& cache, const ExpectedChange& expected,
                             const LeastLight& least, const Waiting& waiting, int threads);
 
