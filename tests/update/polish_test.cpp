@@ -109,7 +109,8 @@ Scene ceiling_in_polish() {
 }
 
 // An edit is followed by what polish shows of surfaces out of view too: once the wall is painted
-// ten times as dark, the floor shows what it does in a fresh session, within the noise (20 %).
+// ten times as dark, the floor comes to show what it does in a fresh session, within the noise (20
+// %).
 TEST(Polish, WhatItShowsFollowsEdits) {
     SessionSettings settings;
     settings.update = fixed_size(Scheme::best, Aov::radiance);
@@ -121,13 +122,13 @@ TEST(Polish, WhatItShowsFollowsEdits) {
         return luminance(mean_of(session.cycle().picture()));
     };
     Session session(ceiling_in_polish(), camera, settings);
-    const float before = mean_after(session, 48);
+    const float before = mean_after(session, 120);
     Material dark = session.scene().material(MaterialId{0});
     dark.base_color = Rgb(0.06f);
     session.apply(SetMaterial{MaterialId{0}, dark});
-    const float after = mean_after(session, 48);
+    const float after = mean_after(session, 120);
     Session fresh(session.scene(), camera, settings);
-    const float truth = mean_after(fresh, 48);
+    const float truth = mean_after(fresh, 120);
     EXPECT_LT(truth, before / 8);
     EXPECT_NEAR(after, truth, 0.2f * truth);
 }
