@@ -1,25 +1,14 @@
 // Vertices inside solids know no light and must not darken what is around them.
-#include "shading_cache/cache_testing.h"
 #include "shading_cache/interpolate.h"
+#include "shading_cache/square.h"
 
 namespace chiaro {
 namespace {
 
 using namespace tiny;
 
-struct Square {
-    Scene scene = grid(1, 1);
-    MeshGraphs graphs{scene, CoarserLevels::none, 1};
-    ShadingCache cache;
-    PatchId root;
-    std::array<VertexId, 4> corners;
-
-    explicit Square(int channels = 1) : cache(scene, graphs, {channels}, SplitRule::always_four) {
-        root = cache.root(ObjectId{0}, 0, true);
-        corners = cache.patch(root).corners;
-    }
-    Square(const Square&) = delete;
-    Square& operator=(const Square&) = delete;
+struct Square : tiny::Square {
+    explicit Square(int channels = 1) : tiny::Square({channels}) {}
 
     void store_corners(float grey) {
         for (const VertexId v : corners) cache.store(v, 0, Rgb(grey), 0, 1, 1);

@@ -1,8 +1,8 @@
 // New values come in over a few frames.
 #include "shading_cache/fade_in.h"
 
-#include "shading_cache/cache_testing.h"
 #include "shading_cache/interpolate.h"
+#include "shading_cache/square.h"
 
 #include <cmath>
 
@@ -11,29 +11,19 @@ namespace {
 
 using namespace tiny;
 
-struct Square {
-    Scene scene = grid(1, 1);
-    MeshGraphs graphs{scene, CoarserLevels::none, 1};
-    ShadingCache cache;
-    PatchId root;
-    std::array<VertexId, 4> corners;
-
-    explicit Square(float grey)
-        : cache(scene, graphs, {.irradiance = 1, .glossy = 1}, SplitRule::always_four) {
-        root = cache.root(ObjectId{0}, 0, true);
-        corners = cache.patch(root).corners;
+// All corners are that grey, in both kinds of light.
+struct GreySquare : Square {
+    explicit GreySquare(float grey) : Square({.irradiance = 1, .glossy = 1}) {
         for (const VertexId v : corners)
             for (int c = 0; c < 2; ++c) cache.store(v, c, Rgb(grey), 0, 1, 1);
     }
-    Square(const Square&) = delete;
-    Square& operator=(const Square&) = delete;
 };
 
 // The first look shows what is there; n frames after a change a tenth of it is left, in equal
 // parts.
 TEST(FadeIn, ComesAsFarAsItSays) {
     for (const int frames : {1, 4, 10}) {
-        Square s(16);
+        GreySquare s(16);
         FadeIn fade(frames);
         fade.advance(s.cache, 1);
         EXPECT_EQ(fade.shown_total(s.corners[0], Shading::irradiance).value, Rgb(16));
@@ -53,7 +43,7 @@ TEST(FadeIn, ComesAsFarAsItSays) {
 
 // A patch that is divided shows what it showed, until the new vertices' own light comes in.
 TEST(FadeIn, DivisionDoesNotShow) {
-    Square s(16);
+    GreySquare s(16);
     FadeIn fade(4);
     fade.advance(s.cache, 1);
     const PatchId child = s.cache.subdivide(s.root);
@@ -68,7 +58,7 @@ TEST(FadeIn, DivisionDoesNotShow) {
 
 // What was hollow has shown nothing: its first light is not dimmed.
 TEST(FadeIn, WhatShowedNothingComesAtOnce) {
-    Square s(16);
+    GreySquare s(16);
     FadeIn fade(4);
     s.cache.forget(s.corners[2]);
     fade.advance(s.cache, 1);
@@ -81,7 +71,7 @@ TEST(FadeIn, WhatShowedNothingComesAtOnce) {
 
 // Once ids have changed, nobody knows what was shown where.
 TEST(FadeIn, BeginsAnewOncePacked) {
-    Square s(16);
+    GreySquare s(16);
     FadeIn fade(4);
     s.cache.subdivide(s.root);
     fade.advance(s.cache, 1);

@@ -1,6 +1,6 @@
 // What vertices know and show, against arithmetic. Values are greys of powers of two where RGB9E5
 // is exact.
-#include "shading_cache/cache_testing.h"
+#include "shading_cache/square.h"
 
 #include <cmath>
 
@@ -10,25 +10,15 @@ namespace {
 using namespace tiny;
 
 // A square divided once: corners, midpoints and centre.
-struct Square {
-    Scene scene = grid(1, 1);
-    MeshGraphs graphs{scene, CoarserLevels::none, 1};
-    ShadingCache cache;
-    PatchId root;
-    std::array<VertexId, 4> corners;
+struct Square : tiny::Square {
     VertexId midpoint;  // of corners 0 and 1
     VertexId centre;
 
-    explicit Square(int channels = 1) : cache(scene, graphs, {channels}, SplitRule::always_four) {
-        root = cache.root(ObjectId{0}, 0, true);
-        corners = cache.patch(root).corners;
+    explicit Square(int channels = 1) : tiny::Square({channels}) {
         const PatchId child = cache.subdivide(root);
         midpoint = cache.patch(child).corners[1];
         centre = cache.patch(child).corners[2];
     }
-    Square(const Square&) = delete;
-    Square& operator=(const Square&) = delete;
-
     void store_corners(std::array<float, 4> greys, float variance = 0) {
         for (int c = 0; c < 4; ++c) cache.store(corners[c], 0, Rgb(greys[c]), variance, 1, 1);
         cache.resolve();
